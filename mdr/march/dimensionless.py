@@ -158,6 +158,11 @@ class ScaledContact:
             )
         return found
 
+    @cached_property
+    def at_stake(self) -> float:
+        """Friction over mu_0 that the oscillation can take: where there is no shake, what the least F_z lacks."""
+        return 1.0 if self.drive.is_shaken else max(1 - float(self.normal.end.min()) / self.normal.mean, 0.0)
+
     @property
     def full_slip_force(self) -> tuple[loop.FullSlipForce | None, Array | None]:
         """Force of the springs over each step, if all slip forward, and times of flight; None where not needed."""

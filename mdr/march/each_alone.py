@@ -60,9 +60,11 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
             return None
         if off <= BEFORE * stepper.tolerance:
             state = start.with_vector(np.r_[x.ravel(), start.body])
-            state, periods = stepper.advance(state, 1)
+            end, periods = stepper.advance(state, 1)
+            if stepper.late(state, end, 1) > stepper.tolerance:
+                return None
             cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
-            return Orbit(state, periods, Settling(cof, 2 * off, True, "periodic", gain=1.0, across=cof_y))
+            return Orbit(end, periods, Settling(cof, 2 * off, True, "periodic", gain=1.0, across=cof_y))
         step *= np.minimum(1.0, 2 * farthest / np.maximum(_length(step), 1e-300))
         x = _inside(stepper, x + step, start)
     return None

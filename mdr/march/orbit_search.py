@@ -14,7 +14,7 @@ from mdr.march import orbit_loop
 from mdr.march import periodic_orbit as periodic
 from mdr.march.body import N_BODY, RATE, Body, Y
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.steady_state import UNKNOWN, Settling
+from mdr.march.steady_state import LATE, UNKNOWN, Settling
 from mdr.march.stepper import AT_ONCE, MarchState, PeriodRecord, Periods, Stepper
 from mdr.spring.energies import LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.arrays import EXACT, Array
@@ -88,7 +88,11 @@ def search(
             motions = found.motions or motions
             orbit = replace(_repeated(stepper, start.with_vector(found.x), found, norm), motions=motions)
             spread, x = orbit.settling.spread, found.x
-            if spread <= stepper.tolerance and (close <= periodic.CLOSE or not _nearly_full(orbit.settling.mean)):
+            if (
+                spread <= stepper.tolerance
+                and orbit.settling.settled
+                and (close <= periodic.CLOSE or not _nearly_full(orbit.settling.mean))
+            ):
                 return orbit
             if close <= periodic.CLOSEST:
                 break
@@ -200,9 +204,11 @@ def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, n
     if period is None:
         state, period = stepper.advance(stepper.within_friction(state), 1)
     cof, cof_y = float(period.cof[-1]), float(period.cof_y[-1])
-    if spread <= SOLVED_TOLERANCE:
+    late = stepper.v > 0 and stepper.late(state, stepper.advance(state, 1)[0], 1) > stepper.tolerance
+    if spread <= SOLVED_TOLERANCE and not late:
         return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain, across=cof_y))
-    why = "a periodic state was found, but not how far it may be from the exact one"
+    why = LATE if late else "a periodic state was found, but not how far it may be from the exact one"
+    spread = UNKNOWN if late else spread
     return Orbit(state, period, Settling(cof, min(spread, UNKNOWN), False, "unsettled", found.gain, why, across=cof_y))
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.march import Observed, too_coarse
-from mdr.march.steady_state import MIN_PERIODS, TOLERANCE
+from mdr.march.steady_state import LATE, MIN_PERIODS, TOLERANCE, UNKNOWN
 from mdr.march.stepper import PeriodRecord
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
@@ -43,7 +43,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
-    cof_error: float  #: bound on the numerical error of both: step, springs and settling [-]
+    cof_error: float  #: bound on the numerical error of both, estimated; 2 mu_0, all there can be, if not settled [-]
     settled: bool  #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
@@ -190,7 +190,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
-    error += march.end.missing_load
+    error += march.end.missing_load + settling.spread + 1e-12
     cof = settling.mean
     sticks = march.stick_share
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
@@ -199,7 +199,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
     return SlidingRun(
         cof=mu_0 * cof,
         cof_y=mu_0 * settling.across,
-        cof_error=mu_0 * (error + settling.spread + 1e-12),
+        cof_error=mu_0 * (min(error, UNKNOWN) if settling.settled else UNKNOWN),
         settled=settling.settled,
         kind=kind,
         why=why if settling.settled else _why_not(march),
@@ -223,6 +223,8 @@ def _why_not(march: Observed) -> str:
     settling, n = march.settling, march.n_periods
     if settling.contradicts:
         return f"{settling.why}: change start or steps_per_period"
+    if LATE in settling.why:
+        return f"{settling.why}: raise v_0 or n_periods, or ask cof_curve(case, [0]) for the limit of a slow pull"
     if settling.why:
         return f"{settling.why}: raise {'limit_s' if 'time limit' in settling.why else 'n_periods or c_x'}"
     if n < MIN_PERIODS:

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
 MIN_PERIODS = 8  #: fewer give no three windows
 UNKNOWN = 2.0  #: spread of a run too short to tell: a COF lies between -mu_0 and mu_0
+LATE = "springs have not yet slipped as far as the pull went"  #: why a state that hardly changes is not periodic
 
 
 @dataclass(frozen=True)

@@ -14,15 +14,18 @@ import numpy as np
 from mdr.march import loop, orbit_loop
 from mdr.march.body import N_BODY, RATE, Body, Y
 from mdr.march.dimensionless import ScaledContact, Way
-from mdr.march.steady_state import TOLERANCE
+from mdr.march.steady_state import TOLERANCE, UNKNOWN
 from mdr.march.turning import Across, look_turning, march_turning
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.settle import tools_for
+from mdr.spring.step import ROUNDING
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
+LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
+WITH_IT = 0.5  #: of the way of the pull, on which a spring may go with it or lose and still count as slipping as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -134,6 +137,18 @@ class Stepper:
             if time_is_over():
                 break
         return state, joined(parts)
+
+    def late(self, before: MarchState, after: MarchState, n_periods: int) -> float:
+        """Friction over mu_0 that springs may still gain which have not slipped as far as the pull went in these last
+        periods: in a periodic motion each does, however slow the pull, and however little a state changes that has
+        hardly moved.
+        """
+        (gap, w), drive, pull = self.scaled.springs, self.scaled.drive, 2 * np.pi * self.v
+        if pull <= drive.steps * LOST * (1 + np.abs(gap).max()):
+            return UNKNOWN if pull else 0.0
+        went = after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])
+        late = np.abs(went) > WITH_IT * n_periods * pull
+        return 2 * float(w[late] @ np.maximum(drive.z.max() - gap[late], 0.0)) / self.mean_F_z
 
     def _traces(self, n_periods: int) -> tuple[loop.Trace, Across | None]:
         """Room for what a march leaves, along and across."""

@@ -15,7 +15,7 @@ import numpy as np
 from mdr.march.body import Y
 from mdr.march.dimensionless import ScaledContact
 from mdr.march.orbit_search import Orbit, search
-from mdr.march.steady_state import MIN_PERIODS, TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
+from mdr.march.steady_state import LATE, MIN_PERIODS, TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
 from mdr.march.stepper import MarchState, Periods, Stepper, joined
 from mdr.tools.progress import time_is_over
 
@@ -24,6 +24,7 @@ E_FOLDS = 8.0  #: of a damped oscillation after which no beat is left, and of a 
 NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is missing in the COF
 SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
+FEW = 0.1  #: of the way from rest, that a pull has to go while it is waited for late springs
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 
 
@@ -32,7 +33,7 @@ class Waiting:
 
     def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
         self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
-        self.periods = Periods(*np.empty((3, 0)))
+        self.periods, self.late = Periods(*np.empty((3, 0))), 0.0
 
     @property
     def n(self) -> int:
@@ -45,9 +46,12 @@ class Waiting:
         return 4 * MIN_PERIODS if self.scaled.body.M else MIN_PERIODS
 
     def advance(self, n_periods: int) -> None:
-        """March on, period by period."""
-        self.state, periods = self.stepper.advance(self.state, n_periods)
-        self.append(periods)
+        """March on, period by period; `late` is that of the latter half."""
+        for part in (n_periods // 2, n_periods - n_periods // 2):
+            before = self.state
+            self.state, periods = self.stepper.advance(before, part)
+            self.append(periods)
+        self.late = self.stepper.late(before, self.state, periods.cof.size)
 
     def append(self, periods: Periods) -> None:
         """Add further periods to those that the judgement rests on."""
@@ -83,7 +87,7 @@ class Waiting:
         settling = replace(settling, across=beside.mean)
         if beside.spread > settling.spread:
             settling = replace(beside, mean=settling.mean, across=beside.mean)
-        if self.n < E_FOLDS * self.scaled.body.pull_time and abs(1 - settling.mean) > TOLERANCE:
+        if self.n < E_FOLDS * self.scaled.body.pull_time and not self._is_full(settling.mean):
             takes = f"spring and damper of the pull take {self.scaled.body.pull_time:.3g}"
             why = f"after {self.n} periods the body still creeps: {takes}"
             return replace(settling, spread=UNKNOWN, settled=False, kind="unsettled", why=why)
@@ -91,9 +95,15 @@ class Waiting:
             return replace(settling, settled=False, kind="unsettled", why=why)
         return settling
 
+    def _is_full(self, cof: float) -> bool:
+        """Whether next to nothing is missing in the COF, of what oscillations can take from it."""
+        return abs(1 - cof) <= TOLERANCE * self.scaled.at_stake
+
     def _still_moves(self, cof: float) -> str:
         """Why a COF that has settled is not the end of the motion; nothing if it is."""
         scaled, n = self.scaled, self.n
+        if self.late > self.stepper.tolerance:
+            return f"after {n} periods {LATE}, which may take {way_from_rest(scaled, self.stepper.v):.2g}"
         if not scaled.body.M:
             return ""
         changes = (abs(self.growth) if scaled.body.C == 0 else self.growth) * n > SWING_TOLERANCE
@@ -101,8 +111,7 @@ class Waiting:
             return f"the swing of the body still grows or dies away after {n} periods"
         if n < self.beat:
             return f"after {n} periods the body may still be in a beat, which lasts {self.beat:.3g} of them"
-        full = abs(1 - cof) <= TOLERANCE
-        if full and not self._locks_in and self.stepper.v < (1 - NEARLY) * scaled.full_slip.end:
+        if self._is_full(cof) and not self._locks_in and self.stepper.v < (1 - NEARLY) * scaled.full_slip.end:
             return f"full slip cannot last at this velocity: after {n} periods the body has not yet come to stick"
         return ""
 
@@ -135,14 +144,17 @@ class Waiting:
         carries to and fro slip as it has them, however steadily. In full slip forward a smaller swing changes nothing.
         """
         scaled = self.scaled
-        if not (scaled.body.M and scaled.body.C) or abs(1 - cof) <= TOLERANCE:
+        if not (scaled.body.M and scaled.body.C) or self._is_full(cof):
             return False
         return -self.growth * scaled.body.M / (np.pi * scaled.body.C) > DYING
 
     def _may_settle_by(self, most: int) -> bool:
         """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""
+        is_late = self.late > self.stepper.tolerance and self.scaled.drive.is_shaken
+        if is_late and FEW * way_from_rest(self.scaled, self.stepper.v) > most:
+            return False
         driven = self.n > 64 and self.growth * self.n > SWING_TOLERANCE
-        full = abs(1 - self.periods.cof[-1]) < TOLERANCE
+        full = self._is_full(self.periods.cof[-1])
         if driven and np.isinf(self.scaled.full_slip.end) and self.scaled.body.M and full:
             body = self.scaled.body
             at_stick = 2 * self.stepper.v * np.sqrt(body.M / body.K)  # swing of a body that reaches -v

@@ -32,6 +32,7 @@ GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of t
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
 TINY = 1e-300  #: of a leash
 SHORT = 1.0  #: square of a way over the leash that counts as short
+EVEN = 2.0  #: times the least leash that the greatest may be, for two nodes to tell how far a way turns a spring
 NO_PHI = (1.0, 1.0, 0.5, 0.0, 0.0)  #: in the place of phi where nothing is viscous
 
 
@@ -188,12 +189,16 @@ def slid(n, vel, t, v, R, T, G, phi, viscous, short):
         return n, (along(v_b, n) - R_dot) / G
     v_dot, R_b, bend, per = velocity(v, t), at(R, t), 2.0 * (R.c + 3.0 * t * R.d), t / T
     c_a, d_a = driving(n, vel, v.a, v.b, R.a, R.b, 2.0 * R.c, T, t)
-    l_b = driven(vel, c_a, d_a, c_a + d_a * t, d_a, t, T, phi)
-    r_a, r_b = per * (c_a - G * vel), per * (c_a + d_a * t - G * l_b)
-    curved, n_b = 1.0 if G * t < T else 0.0, n
-    for _ in range(2):  # the cubic of values and slopes at the nodes of Gauss's rule
-        mean, tilt = 0.5 * (vel + l_b) + curved / 12.0 * (r_a - r_b), GAUSS * (l_b - vel)
-        tilt += curved * GAUSS / 6.0 * (2.0 * (l_b - vel) - r_a - r_b)
+    n_b, c_b, d_b = n, c_a + d_a * t, d_a
+    l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)
+    r_a, r_b = per * (c_a - G * vel), per * (c_b - G * l_b)
+    for _ in range(2):  # the mean of the velocity, and its tilt between the nodes of Gauss's rule
+        if G * t < T:  # of the cubic of values and slopes
+            mean = 0.5 * (vel + l_b) + (r_a - r_b) / 12.0
+            tilt = GAUSS * (l_b - vel + (2.0 * (l_b - vel) - r_a - r_b) / 6.0)
+        else:  # as T l' + G l = c has them, however soon l comes to c/G
+            mean = (0.5 * (c_a + c_b) + t * (d_a - d_b) / 12.0 - (l_b - vel) / per) / G
+            tilt = (0.1 * (c_b - c_a) - t * (d_a + d_b) / 120.0 - (0.5 * (vel + l_b) - mean) / per) / (G * GAUSS)
         n_b = turned(n, v_1, v_2, R_1 + T * (mean - tilt), R_2 + T * (mean + tilt), t, short)
         c_b, d_b = driving(n_b, l_b, v_b, v_dot, R_b, R_dot, bend, T, t)
         l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)

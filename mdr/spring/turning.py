@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.contact_modes import FREE, SLIP, STICK
-from mdr.spring.dragged import TINY, Cubic, Slip, along, at, cubic, since, size_of, slides, slope
+from mdr.spring.dragged import EVEN, TINY, Cubic, Slip, along, at, cubic, since, size_of, slides, slope
 from mdr.spring.energies import (
     CONTACT_IMPULSE,
     FRICTION_LOSS,
@@ -53,6 +53,7 @@ _FAST = {"reassoc", "contract"}
 _inline = inner(forceinline=True, error_model="numpy", fastmath=_FAST, **LENT)
 
 MOST_HALVINGS = 60  #: in the search for the end of a mode
+SHORTEST = 1 / 256  #: part of a step that slip is followed for at once, however its leash changes
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
 
 
@@ -379,6 +380,20 @@ def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look)
     return Stretch(end, t, lasts, f_1, vel, of.area, of.moment)
 
 
+@_inline
+def even_part(R, more, t, shortest):
+    """How much of a time t to follow slip for at once, on the leash R + more, R a cubic: two nodes tell how far it
+    turns the spring only where it does not change much.
+    """
+    u, first = t, R.a + more
+    while u > shortest:
+        middle, last = at(R, 0.5 * u) + more, at(R, u) + more
+        if EVEN * min(first, middle, last) >= max(first, middle, last):
+            break
+        u *= 0.5
+    return u
+
+
 # --- a step ---
 
 
@@ -423,15 +438,16 @@ def rubs(e_0, e, i, w, top, R, t, k, done, tol, h, G, T, arms, tools, look):
     gone, zeros, mode, limit, f, vel = 0.0, 0, BEGINS, 0.0, 0.0j, 0.0
     area, moment, stuck, when = 0.0j, 0.0j, 0.0, 0.0
     for _ in range(MOST_EVENTS):
-        u, begun = t - gone, done + gone
-        if gone > 0.0:
-            k = 1
-        if arms is not None and k == 1:
-            fill_halves(u, arms, tools, 1)
+        left, begun = t - gone, done + gone
         start = start_of(e_0, e, i, top, R, h, G, T, arms)
         if mode == BEGINS:
             out = size_of(start.g) - max(R.a, 0.0)
             mode = SLIP if (out >= -tol and start.ahead > 0.0) or (T > 0.0 and out > tol) else STICK
+        u = left if mode == STICK else even_part(R, T * start.vel + tol, left, SHORTEST * h)
+        if u < t:
+            k = 1
+        if arms is not None and k == 1:
+            fill_halves(u, arms, tools, 1)
         if mode == STICK:
             of = sticks(e_0, e, i, w, top, R, u, k, tol, T, arms, tools, look)
             stuck, when = stuck + of.t, when + of.t * (begun + 0.5 * of.t)
@@ -440,13 +456,14 @@ def rubs(e_0, e, i, w, top, R, t, k, done, tol, h, G, T, arms, tools, look):
         e_0, area, moment = of.e, area + of.area, moment + begun * of.area + of.moment
         if mode == STICK or of.t > 0.0:
             f, vel = of.f, of.vel
-        if of.lasts:
+        if of.lasts and u == left:
             limit = max(at(R, of.t), 0.0)
             break
         zeros = 0 if of.t > 0.0 else zeros + 1
         gone += of.t
         top, R = Way(top.p + 2.0 * of.t * top.q, top.q), since(R, of.t)
-        mode = STICK if mode == SLIP else SLIP
+        if not of.lasts:
+            mode = STICK if mode == SLIP else SLIP
     return Rub(e_0, mode, f, limit, vel, area, moment, stuck, when)
 
 

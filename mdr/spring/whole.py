@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.dragged import (
+    EVEN,
     NO_PHI,
     Cubic,
     along,
@@ -87,7 +88,8 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         area, moment = area_and_moment(f_0, f_1, h)
         begins = ((out >= -tol) & (ahead > 0.0)) | (viscous & (out > tol))
         short = is_short(v.a, R.a + T * vel, h) & is_short(last, R_1, h)
-        slips = touches & begins & (l_1 >= 0.0) & short & (rho > TOUCHING * h * fast)
+        even = EVEN * (lowest - gap[i] + T * vel) >= max(R.a, R_1) + T * vel
+        slips = touches & begins & (l_1 >= 0.0) & short & even & (rho > TOUCHING * h * fast)
         # stick
         held = scaled(h, e + scaled(0.5 * h, p) + scaled(h * h / 3.0, q)) + scaled(T, go)
         lever = scaled(h * h, scaled(0.5, e) + scaled(h / 3.0, p) + scaled(0.25 * h * h, q))

@@ -133,3 +133,31 @@ def test_slip_ends_where_the_top_turns_back_whatever_is_across():
         springs = np.array([-1.0]), np.array([1.0]), np.ones((1, 1)), e / np.hypot(*e)
         end = stepped(law, springs, (-2 * bend * turn, bend), (across * rng.uniform(-1, 1), 0.0), z_1=0.0)[2]
         assert end[0, 0] == pytest.approx(-1 + bend * (H - turn) ** 2, abs=1e-8)  # of the square of the way across
+
+
+FALLING = {
+    "elastic": LAWS["elastic"],
+    "two arms": LAWS["two arms"],
+    "quick dashpot": law_of(H / 5),
+    "both": law_of(H / 5, (1.0, 0.5), (1.0, 5.0)),
+}
+
+
+@pytest.mark.parametrize("law", FALLING.values(), ids=FALLING)
+def test_a_step_in_which_a_spring_is_let_go_is_the_sum_of_its_parts(law):
+    """The leash falls to a share of itself, or to nothing before the end; slip begins within the step."""
+    rng, parts = np.random.default_rng(6), 512
+    for share in (0.3, 0.05, 0.0, -0.5):
+        _, w, s, e = some_springs(law, rng)
+        gap, e, s = -np.ones(w.size), e / s[0], s / s[0]
+        fall = (1 - share) / H
+        x, y = np.array([0.3, 0.06 / H]) * fall, np.array([-0.21, 0.0]) * fall
+        of, _, end = stepped(law, (gap, w, s, e), x, y, z_1=-fall)
+        area, h = np.zeros(2), H / parts
+        for t in h * np.arange(parts):
+            way = [(one[0] + 2 * t * one[1], one[1]) for one in (x, y)]
+            path = Path(-fall * t, -fall, 0.0, *way[0])
+            part = row_turning(s, e, gap, w, path, *way[1], law.T, law.modes, law.arms, tools_for(law, h), None)
+            area += part.area_x, part.area_y
+        assert_allclose([of.area_x, of.area_y], area, atol=3e-5 * H)
+        assert_allclose(end, e, atol=4e-4)
