@@ -128,12 +128,11 @@ def sweep(
 
 def _warn_of_loads(study: Study, held: Mapping[str, Any]) -> None:
     """Warn of points whose mean load is another than the load at rest, once for all."""
-    mean = study["mean_F_N"]
-    place = next((i for i, axis in enumerate(study.grid) if axis.path == "load"), None)
-    asked = np.full(mean.shape, held.get("load", np.nan))
-    if place is not None:
-        asked = np.moveaxis(np.broadcast_to(study.grid[place].values, (*np.delete(mean.shape, place), -1)), -1, place)
-    known = np.isfinite(mean)
+    mean, asked = study["mean_F_N"], np.asarray(held.get("load", 0.0))
+    for i, axis in enumerate(study.grid):
+        if axis.path == "load":
+            asked = np.asarray(axis.values).reshape([-1 if i == j else 1 for j in range(mean.ndim)])
+    asked, known = np.broadcast_to(asked, mean.shape), np.isfinite(mean)
     pairs = list(zip(asked[known].tolist(), mean[known].tolist(), strict=True))
     warn_of_mean_loads(pairs, "at {n} of {of} points ")
 
