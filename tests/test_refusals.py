@@ -229,7 +229,7 @@ ARGUMENTS = [
     ("steps_per_period", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, steps_per_period=n), [*COUNT, (8, "at least 32")]),
     ("chunk_seconds", lambda s: mdr.sweep(CASE, {"v_0": [1e-3]}, chunk_seconds=s), ABOVE_ZERO),
     ("held", lambda held: mdr.sweep(CASE, {"v_0": [1e-3]}, held=held), [
-        ({"mu_0": 0.3}, "takes load, frequency, tan_delta, got 'mu_0'")]),
+        ({"mu_0": 0.3}, "takes load, frequency, tan_delta, hold, got 'mu_0'")]),
     ("load", lambda load: mdr.sweep(CASE, {"v_0": [1e-3]}, held={"load": load}), ABOVE_ZERO),
     ("shard", lambda k_n: mdr.sweep(CASE, {"v_0": [1e-3]}, "nowhere", shard=k_n), [
         *((one, "must be k/n with k from 1 to n, such as 3/16, got") for one in ("0/4", "5/4", "1", "1/2/3", "a/b", "",

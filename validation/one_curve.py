@@ -16,8 +16,8 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.closed_forms import paper as theory
-from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.rigid_pull import average_friction
+from mdr.normal.normal_force import mean_normal_force
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label

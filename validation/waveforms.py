@@ -22,7 +22,7 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.closed_forms.full_slip import mean_normal_force
+from mdr.normal.normal_force import mean_normal_force
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import CATALOGUE, DEPTH, OMEGA, SHAPES, any_contact, body, contact, depth_of, loss, shaken

@@ -29,8 +29,8 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
 from mdr.case.pull import Pull
-from mdr.closed_forms.full_slip import corners, edge_of, followed, load_harmonics, normal_force, normal_force_rate
 from mdr.normal.followed_force import N_STEPS
+from mdr.normal.normal_force import corners, edge_of, followed, load_harmonics, normal_force, normal_force_rate
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, SAME, Array
 

@@ -49,9 +49,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.closed_forms.full_slip import edge_marks, mean_normal_force
 from mdr.indenters.mapping.quadrature import Rule, double_exponential
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
+from mdr.normal.normal_force import edge_marks, mean_normal_force
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord

@@ -48,7 +48,7 @@ from mdr.case.depth_cycle import harmonic_sum, turns
 from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.inversion import invert
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS, EXACT, Array, beyond
 from mdr.tools.records import ArrayRecord
 
 TOLERANCE = 2e-10  #: of the sum over an interval of springs, over that of the compression of all
@@ -136,7 +136,7 @@ def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Arra
         middle = 0.5 * (low + high)
         owner = np.repeat(owner, 2)
         low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
-    return total[0] / total[1], error / total[1] + TOLERANCE, np.clip(total[2] / total[1], 0, 1)
+    return beyond(EXACT, total[0] / total[1]), error / total[1] + TOLERANCE, np.clip(total[2] / total[1], 0, 1)
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------

@@ -39,7 +39,7 @@ def find(args: argparse.Namespace, asked: Said) -> int:
         found = mdr.find(asked.case, path, **wish, within=within, held=asked.held)
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
-    answer(args, {**picked(found, "path", "values", "why"), "unit": unit}, str(found), asked.case)
+    answer(args, {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit}, str(found), asked.case)
     return Exit.DONE if found.values else Exit.FAILED
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
-from mdr.closed_forms.full_slip import mean_normal_force, static_cof
+from mdr.closed_forms.full_slip import static_cof
 from mdr.explorer.state import DECADE, POINTS, UP_TO, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
@@ -22,6 +22,7 @@ from mdr.friction.verdict import verdict
 from mdr.march.march import LEAST_ACCURATE
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import plausibility, resolved
 from mdr.tools.arrays import Array
 from mdr.tools.compiling import TALLY

@@ -22,15 +22,16 @@ default, and no [pull] is a rigid pull:
     omega = "50 Hz"                           # or a quantity, in quotes
     du_x = "3 um"
 
-[oscillation] may name its record, motion = "LoadOscillation", and must name a ConstantDepth or ConstantLoad. Without a
-name it is a LoadOscillation where one of the keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and
-else a NormalOscillation.
+[oscillation] may name its record, motion = "LoadOscillation". Without a name it is a LoadOscillation where one of the
+keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a NormalOscillation; beside a [shake] a
+load alone is a ConstantLoad, u_z0 alone a ConstantDepth.
 [shake] is left out where nothing moves in the plane besides the pull; without a name it is an InPlaneMotion where a
 list of amplitudes is given, and else an InPlaneOscillation.
 A Prony material has arms = [[E_j, tau_j], ...].
 
 In the place of a field a file may give what a rig is set to, `mdr.normal.rig.SETTINGS`: frequency [Hz], load [N],
-tan_delta, theta_deg. Files are written in the fields of the records.
+tan_delta, theta_deg. Beside a load, hold = "load" says that it is the mean over the period, hold = "depth" that it
+rests at the mean depth. Files are written in the fields of the records.
 
 A file that is wrong is refused with every fault at once: what is missing, what is no key, each value that the rule of
 its field refuses; and, of a record whose values are all sound, what they are refused for together.
@@ -54,8 +55,10 @@ from mdr.case.motion import LoadOscillation, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files.own_records import own_records
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
-from mdr.normal.rig import OPEN, Setting, settings_of, warn_of_load
-from mdr.normal.vary import contact_of, fields_of, fields_set
+from mdr.normal.mean_load import hold_of, warn_of_mean_loads
+from mdr.normal.normal_force import mean_normal_force
+from mdr.normal.rig import OPEN, Setting, settings_of
+from mdr.normal.vary import HOLD, contact_of, fields_of, fields_set, load_asked
 from mdr.tools.fields import checked, example_of, required, units_of
 from mdr.tools.messages import nearest, offer, short
 from mdr.tools.notation import numbers_in
@@ -93,14 +96,14 @@ def read_case(path: str | PathLike[str]) -> SlidingContact:
     >>> mdr.read_case("case.toml") == case
     True
     """
-    return read_said(path).case
+    return _as_written(read_said(path))
 
 
 class Said(NamedTuple):
     """What a case file says."""
 
     case: SlidingContact
-    held: dict[str, Any]  #: load [N] and tan_delta [-] given for fields that other tables decide about too
+    held: dict[str, Any]  #: load [N], with hold, and tan_delta [-], for fields that other tables decide about too
 
 
 def read_said(path: str | PathLike[str]) -> Said:
@@ -139,7 +142,16 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     """
     if not isinstance(text, str):
         raise TypeError(f"text must be a string of TOML, got {text!r}")
-    return _said(text, source).case
+    return _as_written(_said(text, source))
+
+
+def _as_written(said: Said) -> SlidingContact:
+    """The case that a file says; with a warning where its mean load is another than its load. Of what varies a case,
+    each answer is warned of, not the case that it begins with.
+    """
+    if (asked := load_asked(said.held, said.case)) is not None:
+        warn_of_mean_loads([(asked, mean_normal_force(said.case))])
+    return said.case
 
 
 def _said(text: str, source: str) -> Said:
@@ -183,7 +195,7 @@ def write_case(case: SlidingContact) -> str:
     return written(case, {})
 
 
-def written(case: SlidingContact, held: Mapping[str, float]) -> str:
+def written(case: SlidingContact, held: Mapping[str, Any]) -> str:
     """The same, with loads, frequencies and loss tangents for the fields that they set."""
     top, tables = [], []
     case = as_given(case)
@@ -215,8 +227,6 @@ def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
     if case is None or refused:
         raise CaseFileError.of([*faults, *refused, *whole])
     _ask_for_masses(case, content, axes if isinstance(axes, dict) else {})
-    if "load" in held and case.oscillation.knows_depth and not axes:
-        warn_of_load(case, held["load"])
     return Said(case, held)
 
 
@@ -247,6 +257,7 @@ def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str
 def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], dict[str, list[str]]]:
     """The parts that sound tables describe, what is held for their fields, and the faults of the other tables."""
     tables = {**_meant(content), **content}
+    tables |= {"oscillation": _still(tables["oscillation"])} if {"shake", "oscillation"} <= set(tables) else {}
     asked = [name for name in _TABLES if name in tables or name in _HARMLESS]
     read = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
     sound = {name: found for name, (found, faults) in read.items() if not faults}
@@ -255,9 +266,16 @@ def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, 
     return parts, held, {name: faults for name, (_, faults) in read.items() if faults}
 
 
-def record_of(name: str, table: Any) -> Any:
+def _still(table: Any) -> Any:
+    """The table [oscillation] of a contact that is shaken in the plane; a lone load or depth is a constant one."""
+    alone = set(table) - {HOLD} if isinstance(table, dict) else set()
+    constant = next((kind for kind, keys in _ALONE.items() if alone and alone <= keys), None)
+    return {"motion": constant, **table} if constant else table
+
+
+def record_of(name: str, table: Any, is_shaken: bool = False) -> Any:
     """The record that a table [name] of a list describes. Raises CaseFileError with every fault."""
-    record, held = _TABLES[name].read(table)
+    record, held = _TABLES[name].read(_still(table) if name == "oscillation" and is_shaken else table)
     for key in held:
         raise CaseFileError(f"[{name}] {key} cannot stand in a list of tables: give {' or '.join(fields_set(key))}")
     return record
@@ -333,9 +351,10 @@ class _Table:
         raise CaseFileError(f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}")
 
     def told_by(self, table: Mapping[str, Any]) -> type[Any]:
-        """The record of a table that does not name it; a load without du_z is that of a LoadOscillation."""
+        """The record of a table that does not name it; a load without amplitudes of depth is a LoadOscillation's."""
         *special, usual = self.unnamed
-        telling = {*table, *(("F_z0",) if "load" in table and "du_z" not in table else ())} - {*self.keys(usual)}
+        of_load = "load" in table and not {"du_z", "cos", "sin"}.intersection(table)
+        telling = {*table, *(("F_z0",) if of_load else ())} - {*self.keys(usual)}
         return next((record for record in special if telling.intersection(self.keys(record))), usual)
 
     def _describe(self, record: type[Any], table: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
@@ -346,6 +365,8 @@ class _Table:
         faults: list[str] = []
         spoilt: set[str | None] = set()
         for key, value in table.items():
+            if key == HOLD and self.name == "oscillation":
+                continue
             setting = settings.get(key)
             field = setting.field_of(self.name, record) if setting else key
             if field not in known:
@@ -359,6 +380,10 @@ class _Table:
                 given |= {} if wrong else {field: said}  # a stand-in for what is held: a number above zero
                 held |= {key: said} if setting and field in OPEN and not wrong else {}
         given.pop(self.choice, None)
+        if HOLD in table and self.name == "oscillation":
+            hold, wrong = tried(_hold_beside, table[HOLD], table, record)
+            faults += wrong
+            held |= {HOLD: hold} if "load" in held and not wrong else {}
         refused = _field_faults(record, given, self._ways_out(record), spoilt)
         made, together = (None, []) if refused or spoilt else tried(record, **given)
         if faults := [*faults, *refused, *together]:
@@ -379,6 +404,7 @@ class _Table:
         if key in settings:
             return f"{whose}; it stands for {' or '.join(settings[key].paths)} of other records"
         aliases = [alias for alias, one in settings.items() if one.field_of(self.name, record)]
+        aliases += [HOLD] if self.name == "oscillation" else []
         if key.casefold() in FREQUENCY and "frequency" in aliases:
             return f"{whose}; did you mean frequency?"
         if key.casefold() not in {one.casefold() for one in known}:
@@ -399,6 +425,8 @@ _TABLES = {
         _Table("shake", "motion", in_plane, in_plane.UNNAMED),
     )
 }
+#: what [oscillation] is beside a [shake] if it says no more than this
+_ALONE = {"ConstantLoad": {"load", "F_z0"}, "ConstantDepth": {"u_z0"}}
 #: a sound record for each part that a case cannot do without
 _HARMLESS = {
     "indenter": example_of(indenters.Paraboloid),
@@ -436,6 +464,17 @@ def _meant(content: Mapping[str, Any]) -> dict[str, Any]:
 # --- from values to records ---
 
 
+def _hold_beside(value: Any, table: Mapping[str, Any], record: type[Any]) -> str:
+    """What stays of the load in a table [oscillation]."""
+    hold = hold_of(value)
+    if "F_z0" in fields_of(record):
+        if hold == "depth":
+            raise ValueError(f'hold = "depth" is about a driven depth, and under a {record.__name__} the load is given')
+    elif "load" not in table:
+        raise ValueError("hold says what stays of a load: give load [N] in the place of u_z0, or leave hold out")
+    return hold
+
+
 def _number_at(key: str, value: Any, of: Setting | str) -> Any:
     """What a key says: quantities as numbers, of a field with this unit, or of what a setting stands for."""
     if isinstance(of, str):
@@ -456,7 +495,7 @@ def _field_faults(
 # --- from records to text ---
 
 
-def _written(table: _Table, record: Any, held: Mapping[str, float]) -> str:
+def _written(table: _Table, record: Any, held: Mapping[str, Any]) -> str:
     """One table of the file."""
     name, writable = type(record).__name__, table.writable()
     if table.records().get(name) is not type(record):
@@ -467,6 +506,7 @@ def _written(table: _Table, record: Any, held: Mapping[str, float]) -> str:
     values = {field: getattr(record, field) for field in fields_of(record)}
     spelt = {key: alias for alias in held for key in values if f"{table.name}.{key}" in fields_set(alias)}
     given = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
+    given |= {HOLD: held[HOLD]} if HOLD in held and "load" in given else {}
     lines = [f"{key} = {toml_value(value)}" for key, value in given.items() if value is not None]
     named = not table.unnamed or table.told_by(values) is not type(record)
     choice = [f"{table.choice} = {toml_value(name)}"] if named else []

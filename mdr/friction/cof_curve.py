@@ -183,8 +183,7 @@ def cof_curve(
     asked = np.where(at_rest, 0.0, velocities)
     asked = asked if np.any(asked == 0) else np.append(asked, 0.0)
     is_closed = method is None and has_closed_form(case)
-    runs = partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
-    friction: Friction = _closed_form if is_closed else runs
+    friction: Friction = _closed_form if is_closed else _by_runs(accuracy, n_springs, steps_per_period)
     cof, error, settled, sticks, why, cof_y = _both_ways(case, asked, friction)
     if not is_closed:  # a static limit in closed form judges no run
         wrong = disordered(asked, cof, error, settled & ((asked != 0) | case.is_shaken))
@@ -212,6 +211,17 @@ def cof_curve(
         static_cof_back=back,
         cof_y=cof_y[:n] if case.moves_across else None,
     )
+
+
+def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> tuple[float, float, str]:
+    """Friction [-] at one velocity as a curve has it, without the limit at rest; the bound on its error; and why it has
+    not settled, "" where it has.
+    """
+    case = resolved(case)
+    v_0 = 0.0 if abs(v_0) < SLOWEST * case.unit_velocity and not case.is_shaken else v_0
+    friction = _closed_form if has_closed_form(case) else _by_runs(accuracy)
+    cof, error, settled, _, why, _ = (column[0] for column in _both_ways(case, np.array([v_0]), friction))
+    return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
 
 
 class Columns(NamedTuple):
@@ -299,6 +309,10 @@ def _slow_limit(runs: Columns) -> Point:
     bound = runs.error[0] + (runs.error[0] + runs.error[1]) / 6 + 0.15 * max(abs(apart), abs(aside))
     settled, why = bool(runs.settled.all()), runs.why[0] or runs.why[1]
     return slower - apart / 6, bound, settled, runs.sticks[0], why, slow_y - aside / 6
+
+
+def _by_runs(accuracy: float, n_springs: int | None = None, steps_per_period: int | None = None) -> Friction:
+    return partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
 
 
 def _runs(

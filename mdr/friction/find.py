@@ -2,6 +2,9 @@
 
 The range is scanned, each change of sign is solved for by Brent's method, and where the scan comes nearest to what is
 asked without reaching it, the nearest point is sought first: a pair of roots may hide there.
+
+A run is as accurate as its place needs: coarse while it misses what is asked by more than its error, which tells the
+side, and with full accuracy from there on, so that every value and every end of the range is as good as a single run.
 """
 
 from __future__ import annotations
@@ -17,10 +20,13 @@ import numpy as np
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
-from mdr.friction.cof_curve import cof_curve
+from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.march.march import BUDGET, LEAST_ACCURATE
+from mdr.normal.mean_load import warn_of_mean_loads
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import still_held
+from mdr.normal.vary import load_asked, still_held
 from mdr.tools.arrays import EXACT
 from mdr.tools.checks import finite, positive
 from mdr.tools.keywords import offering
@@ -33,6 +39,8 @@ N_SCAN = 33  #: values of a range that are looked at first
 DECADE = 10.0  #: to both sides of the value in the case, where no range is given
 LOG_FROM = 4.0  #: ratio of the ends of a range from which on its values grow by a constant factor
 CLOSE = 1e-3  #: of what is asked, within which a root is none that is only jumped over
+REACHED = 1e-2  #: of the bound on the error of an accurate run, by which it may miss what is asked
+UNSURE = 3.0  #: bounds on the error, within which the nearest point of coarse runs may hide a pair of roots
 TRIES = 20  #: to find the nearest point between three values
 
 
@@ -44,10 +52,14 @@ class Found(Printed):
     values: tuple[float, ...]  #: in SI, rising; empty where there is none
     why: str  #: why there is none, or may be others; "" where there is nothing to say
     cases: tuple[SlidingContact, ...] = field(repr=False)  #: the case at each value
+    mean_F_N: tuple[float, ...]  #: mean normal force [N] of each case
 
     def __str__(self) -> str:
         unit = facts_at(self.path).unit
-        found = [f"{self.path} = {shown(value, unit, 6)}" for value in self.values]
+        found = [
+            f"{self.path} = {shown(value, unit, 6)}, mean load {shown(load, 'N')}"
+            for value, load in zip(self.values, self.mean_F_N, strict=True)
+        ]
         return "\n".join([*found, *([self.why] if self.why else [])])
 
 
@@ -60,7 +72,7 @@ def find(
     cof: float | None = None,
     v_c: float | None = None,
     within: tuple[float, float] | None = None,
-    held: Mapping[str, float] | None = None,
+    held: Mapping[str, Any] | None = None,
 ) -> Found:
     """Values [SI] of one number of a case at which friction, or the critical velocity, is what is asked for.
 
@@ -80,7 +92,8 @@ def find(
     within : (float, float), optional
         Lowest and highest value. None: a tenth to ten times that of the case, as far as the case can have it.
     held : mapping of str to float, optional
-        "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold meanwhile, as in `sweep`.
+        "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold meanwhile, as in `sweep`. Beside a load "hold" says
+        what stays: "depth", at which it rests, or "load", its mean. Without it a warning says where the mean differs.
 
     Returns
     -------
@@ -101,7 +114,7 @@ def find(
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
     >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
     >>> print(mdr.find(case, "du_z", v_0=1e-4, cof=0.2))
-    oscillation.du_z = 7.2068 µm
+    oscillation.du_z = 7.2068 µm, mean load 0.0641 N
     """
     case = as_given(case)
     at_rest(case)  # warns of what is unlikely
@@ -113,13 +126,18 @@ def find(
         *_range(case, path, within, held),
     )
     values = tuple(search.values())
-    return Found(path, values, search.why(path, bool(values)), tuple(map(search.at, values)))
+    cases = tuple(map(search.at, values))
+    loads = tuple(map(mean_normal_force, cases))
+    asked = [load_asked({**held, path: value}, one) for value, one in zip(values, cases, strict=True)]
+    told = [(load, mean) for load, mean in zip(asked, loads, strict=True) if load is not None]
+    warn_of_mean_loads(told, "at {n} of {of} values found " if len(told) > 1 else "at the value found ")
+    return Found(path, values, search.why(path, bool(values)), cases, loads)
 
 
 class _Wish(NamedTuple):
     """What is asked of a case."""
 
-    ask: Callable[[SlidingContact], float]
+    ask: Callable[[SlidingContact, float], tuple[float, float]]  #: at an accuracy: what there is, and its error
     wanted: float
     what: str
     unit: str
@@ -136,24 +154,26 @@ def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, v_c: Any) -> _Wis
     if (cof is None) == (v_c is None) or (cof is None) != (v_0 is None):
         raise ValueError("give one wish: cof at a velocity v_0, or v_c")
     if v_c is not None:
-        return _Wish(critical_velocity, positive("v_c", v_c, "critical velocity in m/s"), "v_c", "m/s")
+        wanted = positive("v_c", v_c, "critical velocity in m/s")
+        return _Wish(lambda one, _: (critical_velocity(one), 0.0), wanted, "v_c", "m/s")
     wanted, speed = finite("cof", cof), finite("v_0", v_0)
     if path != "mu_0" and abs(wanted) >= case.mu_0:
         raise ValueError(
             f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c"
         )
-    return _Wish(lambda one: _settled_cof(one, speed), wanted, f"the COF at {shown(speed, 'm/s')}", "")
+    what = f"the COF at {shown(speed, 'm/s')}"
+    return _Wish(lambda one, accuracy: _settled(one, speed, accuracy), wanted, what, "")
 
 
-def _settled_cof(case: SlidingContact, v_0: float) -> float:
-    """Friction [-]. Raises ValueError where the run does not settle."""
-    curve = cof_curve(case, v_0)
-    if not curve.settled[0]:
-        raise ValueError(f"the run did not settle{f': {curve.why[0]}' if curve.why[0] else ''}")
-    return float(curve.cof[0])
+def _settled(case: SlidingContact, v_0: float, accuracy: float) -> tuple[float, float]:
+    """Friction [-] and its error. Raises ValueError where the run does not settle."""
+    cof, error, why = friction_at(case, v_0, accuracy)
+    if why:
+        raise ValueError(why)
+    return cof, error
 
 
-def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, float]) -> tuple[float, float]:
+def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, Any]) -> tuple[float, float]:
     """The ends of the range."""
     start = value_of(case, path, held)
     if within is None:
@@ -174,7 +194,7 @@ class _Search:
 
     def __init__(self, at: Callable[[float], SlidingContact], wish: _Wish, low: float, high: float) -> None:
         self.at, self.wish, self.low, self.high = at, wish, low, high
-        self.found: list[float] = []  #: what was asked, of all cases that there are
+        self.found: dict[float, tuple[float, float, float]] = {}  #: by coordinate: what was asked, its error, accuracy
         self.refused = ""  #: why one of them cannot be
         self.ticker = Ticker("find", parts="cases")
 
@@ -184,16 +204,20 @@ class _Search:
             return float(self.low * (self.high / self.low) ** x)
         return self.low + (self.high - self.low) * x
 
-    def miss(self, x: float) -> float:
-        """How far the case at a coordinate is from the wish; NaN where there is no such case."""
-        self.ticker.tick()
-        try:
-            found = self.wish.ask(self.at(self.value(x)))
-        except ValueError as refusal:
-            self.refused = str(refusal)
-            return np.nan
-        self.found.append(found)
-        return self.wish.miss(found)
+    def miss(self, x: float, accuracy: float = LEAST_ACCURATE) -> float:
+        """How far the case at a coordinate is from the wish, its side for sure; NaN where there is no such case."""
+        if x not in self.found or self.found[x][2] > accuracy:
+            self.ticker.tick()
+            try:
+                self.found[x] = *self.wish.ask(self.at(self.value(x)), accuracy), accuracy
+            except ValueError as refusal:
+                self.refused = str(refusal)
+                return np.nan
+        found, error, accuracy = self.found[x]
+        miss = self.wish.miss(found)
+        if accuracy > BUDGET and abs(miss) <= error:
+            return self.miss(x, BUDGET)
+        return 0.0 if abs(miss) <= REACHED * error else miss
 
     def values(self) -> list[float]:
         """The value at each root, rising."""
@@ -209,25 +233,39 @@ class _Search:
             if known[one] * known[two] < 0:
                 with suppress(ValueError):  # a case on the way that cannot be
                     x = float(brentq(self.miss, one, two, xtol=EXACT))
-                    roots += [x] if abs(self.miss(x)) < CLOSE else []
+                    roots += [x] if abs(self.miss(x, BUDGET)) < CLOSE else []
         return [self.value(x) for x in sorted(roots)]
 
     def _turns(self, known: dict[float, float]) -> Iterator[float]:
         """Coordinates between those known where the wish is missed least, without a change of sign."""
-        from scipy.optimize import minimize_scalar
-
         places = sorted(known)
         for one, x, two in zip(places, places[1:], places[2:], strict=False):
             side = np.sign(known[x])
             before, here, behind = (side * known[at] for at in (one, x, two))
             if 0 < here <= min(before, behind) and here < max(before, behind):
-                ends, limit = (one, two), {"maxiter": TRIES}
-                yield float(minimize_scalar(lambda at, side=side: side * self.miss(at), bounds=ends, options=limit).x)
+                x = self._nearest(side, one, two, LEAST_ACCURATE)
+                found, error, _ = self.found.get(x, (np.nan, 0.0, 0.0))
+                if abs(self.wish.miss(found)) <= UNSURE * error:
+                    x = self._nearest(side, one, two, BUDGET)
+                yield x
+
+    def _nearest(self, side: float, one: float, two: float, accuracy: float) -> float:
+        """The coordinate between two where the wish is missed least."""
+        from scipy.optimize import minimize_scalar
+
+        ends, limit = (one, two), {"maxiter": TRIES}
+        return float(minimize_scalar(lambda at: side * self.miss(at, accuracy), bounds=ends, options=limit).x)
 
     @property
     def is_flat(self) -> bool:
         """Whether what is asked is the same everywhere."""
-        return not self.found or max(self.found) - min(self.found) <= EXACT * abs(self.found[0])
+        found = [one for one, *_ in self.found.values()]
+        return not found or max(found) - min(found) <= EXACT * abs(found[0])
+
+    def _accurate(self, x: float) -> float:
+        """What is asked, at a coordinate that was looked at."""
+        self.miss(x, BUDGET)
+        return self.found[x][0]
 
     def why(self, path: str, is_found: bool) -> str:
         """Why there is no value, or why there may be others."""
@@ -237,7 +275,9 @@ class _Search:
         where = f"from {shown(self.low, unit)} to {shown(self.high, unit)}"
         if not self.found:
             return f"none: there is no such case {where}: {self.refused}"
-        least, most = (shown(end, wish.unit) for end in (min(self.found), max(self.found)))
+        least, most = (
+            shown(self._accurate(end(self.found, key=self.found.__getitem__)), wish.unit) for end in (min, max)
+        )
         between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
         gaps = "" if self.is_flat else "; `within` may be widened"
         gaps += f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""

@@ -21,8 +21,10 @@ from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
 from mdr.march.refinement import default_springs, default_steps
+from mdr.normal.mean_load import warn_of_mean_loads
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import still_held
+from mdr.normal.vary import load_asked, still_held
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.keywords import offering
 from mdr.tools.messages import short
@@ -102,7 +104,7 @@ def fit(
     *,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     confidence: float = 0.95,
-    held: Mapping[str, float] | None = None,
+    held: Mapping[str, Any] | None = None,
 ) -> Fit:
     """Parameters of a contact, in SI, from measured friction, by least squares, with confidence intervals.
 
@@ -122,7 +124,8 @@ def fit(
         Level of the intervals [-], between 0 and 1.
     held : mapping of str to float, optional
         "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold as parameters vary, unless a parameter sets the
-        same: a load by another depth for every shape and material. `mdr fit` holds what the case file gives.
+        same: a load by another depth for every shape and material. Beside a load "hold" says what stays: "depth", at
+        which it rests, or "load", its mean. `mdr fit` holds what the case file gives.
 
     Returns
     -------
@@ -162,7 +165,7 @@ def fit(
     if not 0 < confidence < 1:
         raise ValueError(f"confidence must lie between 0 and 1, got {confidence!r}")
     _refuse_wrong_signs(case, data)
-    free = _parameters(case, parameters, bounds)
+    free = _parameters(case, parameters, bounds, held or {})
     if len(free) >= data.v_0.size:
         raise ValueError(f"{len(free)} parameters need more than {data.v_0.size} measurements")
     model = _Model(case, data, free, still_held(held or {}, [one.path for one in free]))
@@ -172,10 +175,13 @@ def fit(
     size = float(np.linalg.norm(data.cof / model.error))
     idle = np.linalg.norm(found.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
     x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
-    return _with_intervals(model, x, found.jac, found.fun, confidence)
+    fitted = _with_intervals(model, x, found.jac, found.fun, confidence)
+    if (asked := load_asked({**model.held, **model.values(x)}, fitted.case)) is not None:
+        warn_of_mean_loads([(asked, mean_normal_force(fitted.case))], "at the best fit ")
+    return fitted
 
 
-def _parameters(case: SlidingContact, names: Any, bounds: Any) -> tuple[Parameter, ...]:
+def _parameters(case: SlidingContact, names: Any, bounds: Any, held: Mapping[str, Any]) -> tuple[Parameter, ...]:
     if isinstance(names, str) or not isinstance(names, Iterable):
         raise TypeError(f'parameters must be a list of names, got {short(repr(names))}; write ["mu_0", ...]')
     names, bounds = tuple(names), {} if bounds is None else bounds
@@ -184,8 +190,10 @@ def _parameters(case: SlidingContact, names: Any, bounds: Any) -> tuple[Paramete
     if not isinstance(bounds, Mapping):
         raise TypeError(f'bounds must be a dict, {{"{names[0]}": (low, high)}}, got {short(repr(bounds))}')
     paths = [path_of(case, name) for name in names]
+    kept = still_held(held, paths)
     free = tuple(
-        Parameter.of(case, name, bounds.get(name, bounds.get(path))) for name, path in zip(names, paths, strict=True)
+        Parameter.of(case, name, bounds.get(name, bounds.get(path)), kept)
+        for name, path in zip(names, paths, strict=True)
     )
     if len(set(paths)) < len(paths):
         raise ValueError(f"parameters name one twice: {', '.join(names)}")
@@ -216,7 +224,7 @@ class _Model:
     """What is left of the data at coordinates x (k,) of the parameters, and its derivatives."""
 
     def __init__(
-        self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...], held: Mapping[str, float]
+        self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...], held: Mapping[str, Any]
     ) -> None:
         self.case, self.data, self.free, self.held = case, data, free, held
         self.error = 1.0 if data.error is None else data.error

@@ -17,14 +17,14 @@ from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.units import facts_at
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import GROUPS, RIG, case_at, fields_of, value_at
+from mdr.normal.vary import GROUPS, HOLD, RIG, case_at, fields_of, value_at
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
 from mdr.tools.messages import offer, short
 
+NONE: Mapping[str, Any] = {}  #: is held
 DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
 UNITS_AWAY = 10.0  #: of the search to either side, on a linear scale
-NONE: Mapping[str, float] = {}  #: is held
 NEAR_END = 1e-3  #: of the range: a best fit nearer to an end is at it, and no search begins nearer
 
 
@@ -40,21 +40,21 @@ class Parameter:
     unit: float  #: of a linear scale; 0 for that of the logarithm
 
     @classmethod
-    def of(cls, case: SlidingContact, name: Any, given: Any = None) -> Parameter:
-        """A parameter of the case, by its name; `given` bounds, or as far as it is sensible."""
+    def of(cls, case: SlidingContact, name: Any, given: Any = None, held: Mapping[str, Any] = NONE) -> Parameter:
+        """A parameter of the case, by its name, with what is held; `given` bounds, or as far as it is sensible."""
         path = path_of(case, name)
-        start = value_of(case, path)
-        if why := _refusal(case, path, start):
+        start = value_of(case, path, held)
+        if why := _refusal(case, path, start, held):
             raise ValueError(f"{name} cannot be varied: {why}")
         unit = natural_unit(case, path)
-        signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit)
-        ends = None if given is None else _bounds(case, name, path, start, given)
+        signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit, held)
+        ends = None if given is None else _bounds(case, name, path, start, given, held)
         if signed or start == 0 or path == "mindlin_ratio" or (ends and ends[0] <= 0):
             away = unit * (np.pi if facts_at(path).unit == "rad" else UNITS_AWAY)
             reach = start - away, start + away
         else:
             unit, reach = 0.0, (start / 10**DECADES, start * 10**DECADES)
-        low, high = ends or (allowed(case, path, start, end) for end in reach)
+        low, high = ends or (allowed(case, path, start, end, held) for end in reach)
         return cls(name, path, start, low, high, unit)
 
     def coordinate(self, value: float) -> float:
@@ -91,7 +91,7 @@ class Parameter:
         return "" if unit == "-" else unit
 
 
-def case_of(case: SlidingContact, values: Mapping[str, float]) -> SlidingContact:
+def case_of(case: SlidingContact, values: Mapping[str, Any]) -> SlidingContact:
     """The case with these values at these paths; mindlin_ratio sets Poisson's ratio."""
     settings: dict[str, Any] = dict(values)
     if "mindlin_ratio" in settings:
@@ -119,11 +119,12 @@ def path_of(case: SlidingContact, name: Any) -> str:
     raise ValueError(f"{short(name)} {meant}")
 
 
-def value_of(case: SlidingContact, path: str, held: Mapping[str, float] = NONE) -> float:
+def value_of(case: SlidingContact, path: str, held: Mapping[str, Any] = NONE) -> float:
     """The value in the case, or what is held; zero of a group for which it has no spring, mass or depth."""
     if path in held:
-        return held[path]
-    value = float(case.material.mindlin_ratio if path == "mindlin_ratio" else value_at(case, path))
+        return float(held[path])
+    hold = held.get(HOLD, "depth")
+    value = float(case.material.mindlin_ratio if path == "mindlin_ratio" else value_at(case, path, hold))
     return value if np.isfinite(value) else 0.0
 
 
@@ -139,12 +140,12 @@ def natural_unit(case: SlidingContact, path: str) -> float:
     return units.get(facts_at(path).unit) or abs(value_of(case, path)) or 1.0
 
 
-def changed(case: SlidingContact, path: str, value: float, held: Mapping[str, float] = NONE) -> SlidingContact:
+def changed(case: SlidingContact, path: str, value: float, held: Mapping[str, Any] = NONE) -> SlidingContact:
     """The case with another value at a path, and what is held."""
     return case_of(case, {**held, path: value})
 
 
-def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, float] = NONE) -> str:
+def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, Any] = NONE) -> str:
     """Why the case cannot have this value; "" where it can."""
     try:
         at_rest(changed(case, path, value, held))
@@ -153,7 +154,7 @@ def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, f
     return ""
 
 
-def allowed(case: SlidingContact, path: str, start: float, end: float, held: Mapping[str, float] = NONE) -> float:
+def allowed(case: SlidingContact, path: str, start: float, end: float, held: Mapping[str, Any] = NONE) -> float:
     """The end of a range, or the value nearest to it that the case can have."""
     if not _refusal(case, path, end, held):
         return end
@@ -164,7 +165,9 @@ def allowed(case: SlidingContact, path: str, start: float, end: float, held: Map
     return good
 
 
-def _bounds(case: SlidingContact, name: str, path: str, start: float, given: Any) -> tuple[float, float]:
+def _bounds(
+    case: SlidingContact, name: str, path: str, start: float, given: Any, held: Mapping[str, Any]
+) -> tuple[float, float]:
     """The ends of the search that were given."""
     if not isinstance(given, tuple | list) or len(given) != 2:
         raise TypeError(f"bounds of {name} must be a pair (low, high), got {short(repr(given))}")
@@ -172,7 +175,7 @@ def _bounds(case: SlidingContact, name: str, path: str, start: float, given: Any
     if not low < high:
         raise ValueError(f"bounds of {name} must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
     for end in (low, high):
-        if why := _refusal(case, path, end):
+        if why := _refusal(case, path, end, held):
             raise ValueError(f"bounds of {name}: {end:.6g} is no value of it: {why}")
     if not low <= start <= high:
         raise ValueError(

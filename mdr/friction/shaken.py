@@ -20,7 +20,7 @@ from mdr.friction.cof_curve import cof_curve
 from mdr.march.march import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import SAME
+from mdr.tools.arrays import EXACT, SAME, beyond
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
@@ -146,7 +146,7 @@ def blocked_cof(case: SlidingContact) -> float:
             f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
             "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)"
         )
-    return 0.5 * (band.low + band.high)
+    return float(beyond(EXACT * case.mu_0, 0.5 * (band.low + band.high)))
 
 
 def no_load_velocity(case: SlidingContact) -> float:

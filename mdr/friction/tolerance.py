@@ -13,10 +13,12 @@ from typing import Any
 from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.units import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
-from mdr.friction.cof_curve import cof_curve
+from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.normal.mean_load import warn_of_mean_loads
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import fields_of, fields_set, still_held, value_at
+from mdr.normal.vary import fields_of, fields_set, load_asked, still_held, value_at
 from mdr.tools.checks import between, finite
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
@@ -87,7 +89,7 @@ def tolerance(
     by: float = 0.1,
     fields: Iterable[str] | None = None,
     *,
-    held: Mapping[str, float] | None = None,
+    held: Mapping[str, Any] | None = None,
 ) -> Tolerance:
     """Friction [-] and critical velocity [m/s] of a contact as each of its inputs alone is smaller and larger.
 
@@ -104,7 +106,8 @@ def tolerance(
         omega, what is `held` for the field that it sets; and v_0.
     held : mapping of str to float, optional
         What the case was made from: "load" [N] for its depth u_z0, "tan_delta" [-] for its tau. They hold while other
-        inputs vary, and vary themselves. `mdr tolerance` takes them from the case file.
+        inputs vary, and vary themselves. Beside a load "hold" says what stays: "depth", at which it rests, or "load",
+        its mean. Without it a warning says where the mean differs. `mdr tolerance` takes them from the case file.
 
     Returns
     -------
@@ -141,18 +144,23 @@ def tolerance(
         raise TypeError(f"fields must be a list of paths, got {fields!r}; write [...]")
     paths = _inputs(case, kept) if fields is None else [one if one == "v_0" else path_of(case, one) for one in fields]
     warnings: list[str] = []
+    loads: list[Pair] = []
 
     def at(path: str, value: float) -> Pair:
         """Friction and critical velocity with another value at a path."""
-        one = case if path == "v_0" else changed(case, path, value, still_held(kept, [path]))
-        curve = cof_curve(one, value if path == "v_0" else v_0)
-        if not curve.settled[0]:
+        others = still_held(kept, [path])
+        one = case if path == "v_0" else changed(case, path, value, others)
+        if (asked := load_asked({**others, path: value}, one)) is not None:
+            loads.append((asked, mean_normal_force(one)))
+        cof, _, why = friction_at(one, value if path == "v_0" else v_0)
+        if why:
             warnings.append(f"{path} = {shown(value, facts_at(path).unit)}: the run did not settle")
-        return float(curve.cof[0]), critical_velocity(one)
+        return cof, critical_velocity(one)
 
     base_cof, base_v_c = at("v_0", v_0)
     inputs = {path: _ends(case, path, v_0, by, kept) for path in paths}
     points = {path: [at(path, end) for end in inputs[path]] for path in progress(paths, "tolerance", "inputs")}
+    warn_of_mean_loads(loads, "at {n} of {of} points ")
     spread = {path: abs(less[0] - more[0]) for path, (less, more) in points.items()}
     order = sorted(paths, key=spread.__getitem__, reverse=True)
     cof, v_c = ({path: (points[path][0][i], points[path][1][i]) for path in order} for i in (0, 1))
@@ -160,7 +168,7 @@ def tolerance(
     return Tolerance(by, v_0, base_cof, base_v_c, values, cof, v_c, tuple(warnings))
 
 
-def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[str, float]) -> Pair:
+def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[str, Any]) -> Pair:
     """The smaller and the larger value of an input, as far as the case can have them."""
     if path == "v_0":
         return v_0 * (1 - by), v_0 * (1 + by)
@@ -169,7 +177,7 @@ def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[
     return less, more
 
 
-def _inputs(case: SlidingContact, held: Mapping[str, float]) -> list[str]:
+def _inputs(case: SlidingContact, held: Mapping[str, Any]) -> list[str]:
     """The numbers of a case that are not zero, by what they were set with."""
     known = ["mu_0", *(f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot)))]
     paths = [path for path in known if isinstance(value := value_at(case, path), float) and value]

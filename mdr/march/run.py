@@ -19,7 +19,7 @@ from mdr.march.steady_state import LATE, MIN_PERIODS, TOLERANCE, UNKNOWN
 from mdr.march.stepper import PeriodRecord
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array, beyond
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, with_error
@@ -190,23 +190,24 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
-    error += march.end.missing_load + settling.spread + 1e-12
-    cof = settling.mean
+    error += march.end.missing_load
+    own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
+    cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
     sticks = march.stick_share
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     if settling.settled and march.may_rest_elsewhere:
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
     return SlidingRun(
         cof=mu_0 * cof,
-        cof_y=mu_0 * settling.across,
-        cof_error=mu_0 * (min(error, UNKNOWN) if settling.settled else UNKNOWN),
+        cof_y=mu_0 * across,
+        cof_error=mu_0 * (min(error + own, UNKNOWN) if settling.settled else UNKNOWN),
         settled=settling.settled,
         kind=kind,
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
         least_slip=float(sums[LEAST_SLIP]) * scaled.units.speed,
         mean_F_x=mu_0 * cof * mean_F_z,
-        mean_F_y=mu_0 * settling.across * mean_F_z,
+        mean_F_y=mu_0 * across * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
         v_0=march.end.v_0,

@@ -3,7 +3,7 @@
 Springs that keep contact answer harmonic by harmonic with the dynamic modulus, exactly. Those of the edge band, which
 touch and leave, are followed through the period until it repeats (mdr/spring/settle.py). Their sum is taken up to the
 edge of the contact, at which dashpots jump, to third order in their width. Where the depth is harmonic and the material
-has no arms, full_slip.py has the closed form of the same force; that these agree is a test.
+has no arms, normal_force.py has the closed form of the same force; that these agree is a test.
 """
 
 from __future__ import annotations

@@ -6,14 +6,14 @@ relaxation time, and one mass for each direction. `SETTINGS` are those that a ca
     [indenter]     theta_deg = 1.5     for theta [rad]
     [material]     tan_delta = 0.2     for tau [s] of a KelvinVoigt: the loss tangent at the frequency of the case
     [oscillation]  frequency = 50      for omega [rad/s], in Hz; so in [shake]
-    [oscillation]  load = 1.0          for F_z0 [N]; of a prescribed depth for u_z0, at which this load rests
+    [oscillation]  load = 1.0          for F_z0 [N]; of a prescribed depth for u_z0, at which this load rests, or with
+                   hold = "load"       about which it is the mean load
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
@@ -23,18 +23,17 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
-from mdr.materials.operator import Rheology
 from mdr.normal.doubts import edge
-from mdr.normal.followed_force import normal_cycle
+from mdr.normal.mean_load import hold_of, warn_of_mean_loads
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import RIG, angular, contact_of, fields_of
-from mdr.tools.arrays import EXACT, SAME
+from mdr.normal.vary import HOLD, RIG, angular, contact_of, fields_of, load_asked
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance, not_negative, positive
 from mdr.tools.keywords import offering
 from mdr.tools.notation import GRAVITY
 from mdr.tools.warned import warn_outside
 
-MATTERS = 0.01  #: of the load, by which the mean load may be more without a word
 LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
 
 
@@ -151,7 +150,8 @@ def rig(
     -----
     As force grows faster than depth, the mean force about the depth at which the load rests is larger than the load: of
     an elastic ball by 4 % at du_z = 0.44 u_z0 and by 20 % at du_z = u_z0. The depth at rest belongs to this shape and
-    this material: where they vary, give `mdr.sweep` or `mdr.fit` ``held={"load": ...}``.
+    this material: where they vary, give `mdr.sweep`, `mdr.find`, `mdr.tolerance` or `mdr.fit` ``held={"load": ...}``,
+    and for the mean load ``held={"load": ..., "hold": "load"}``.
 
     Examples
     --------
@@ -174,6 +174,7 @@ def rig(
     amplitudes = {name: positive(name, value) for name, value in given.items() if value is not None}
     if len(amplitudes) > 1:
         raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
+    hold = _held(hold, bool(amplitudes) and load_amplitude is None)
     pull = _pull(k_x, m, c_x)
     m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
     if not amplitudes and (shake is None or not math.isclose(shake.omega, omega, rel_tol=SAME)):
@@ -188,8 +189,10 @@ def rig(
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
         motion = NormalOscillation(0.0, du_z, omega)
     parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
-    case = contact_of(parts, {"mu_0": mu_0, "load": F_z0})
-    case = _held(case, F_z0, hold, bool(amplitudes) and load_amplitude is None)
+    settings = {"mu_0": mu_0, "load": F_z0} | ({} if hold is None else {HOLD: hold})
+    case = contact_of(parts, settings)
+    if (asked := load_asked(settings, case)) is not None:
+        warn_of_mean_loads([(asked, mean_normal_force(case))])
     if density is not None:
         _warn_of_waves(case, positive("density", density, "in kg/m³"))
     return case
@@ -249,45 +252,14 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
     return moved if rides else 0.0
 
 
-def _held(case: SlidingContact, load: float, hold: str | None, is_driven: bool) -> SlidingContact:
-    """The contact about the depth that is held, or under the mean load that is."""
-    if hold not in (None, "depth", "load"):
-        raise ValueError(f'hold must be "depth" or "load", got {hold!r}')
-    if not is_driven and hold is not None:
+def _held(hold: str | None, is_driven: bool) -> str | None:
+    """What stays of a driven depth, where that is said."""
+    if hold is None:
+        return None
+    if not is_driven:
+        hold_of(hold)
         raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
-    excess = warn_of_load(case, load, hold is None) if is_driven else 0.0
-    return _under_mean_load(case, load) if hold == "load" and excess > SAME else case
-
-
-def warn_of_load(case: SlidingContact, load: float, warns: bool = True) -> float:
-    """Share by which the mean load exceeds the load [N] that rests at the mean depth; a warning where it matters."""
-    excess = _mean_force(case) / load - 1
-    if warns and excess > MATTERS:
-        warn_outside(
-            f"the mean load is {1 + excess:.3g} times the load of {load:.4g} N, as the depth where it rests is held: "
-            'right for a stiff drive; for a weight, which stays, take mdr.rig(..., hold="load")'
-        )
-    return excess
-
-
-def _under_mean_load(case: SlidingContact, load: float) -> SlidingContact:
-    """The contact about the depth, between the first touch and where the load rests, at which it is the mean load."""
-    from scipy.optimize import brentq
-
-    motion: Any = case.oscillation
-
-    def about(u_z0: float) -> SlidingContact:
-        return replace(case, oscillation=replace(motion, u_z0=u_z0))
-
-    first_touch = -motion.du_z * (1 - SAME)
-    u_z0 = brentq(lambda depth: _mean_force(about(depth)) - load, first_touch, motion.u_z0, xtol=EXACT * motion.u_z0)
-    return about(float(u_z0))
-
-
-def _mean_force(case: SlidingContact) -> float:
-    """Mean normal force [N] over a period of prescribed depth."""
-    force = normal_cycle(case.indenter, Rheology.of(case.material, case.omega), case.cycle).F_N
-    return case.material.E_star * float(force.mean())
+    return hold_of(hold)
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:

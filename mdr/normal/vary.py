@@ -3,8 +3,8 @@
 A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, chi =
 du_x/(mu_0 kappa u_z0) shake.du_x, eta = du_y/(mu_0 kappa u_z0) shake.du_y, T = omega tau material.tau, k_x/k_xc
 pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m. Or it is what a rig is set to: load [N] sets F_z0, or of a
-prescribed depth u_z0, at which this load rests; frequency [Hz] sets omega of all that moves; and tan_delta = omega tau
-sets material.tau.
+prescribed depth u_z0, at which this load rests, or beside hold = "load" about which it is the mean load; frequency [Hz]
+sets omega of all that moves; and tan_delta = omega tau sets material.tau.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
 refers to is solved for under a load, which is why this stands beside the normal problem.
@@ -20,8 +20,11 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.motion import Motion
 from mdr.materials import KelvinVoigt
 from mdr.normal.load_control import static_depth, static_load
+from mdr.normal.mean_load import hold_of, under_mean_load
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import not_negative, positive
@@ -40,6 +43,7 @@ RIG = {
     "frequency": ("oscillation.omega", "shake.omega"),
     "tan_delta": ("material.tau",),
 }
+HOLD = "hold"  #: beside a load: whether the depth at which it rests stays, or the mean load
 MOVING = ("oscillation", "shake")
 
 
@@ -48,16 +52,28 @@ def fields_set(path: str) -> tuple[str, ...]:
     return RIG.get(path, (GROUPS.get(path, path),))
 
 
-def still_held(held: Mapping[str, float], paths: Iterable[str]) -> dict[str, float]:
+def still_held(held: Mapping[str, Any], paths: Iterable[str]) -> dict[str, Any]:
     """What is held besides, where none of these paths sets it too. ValueError for what cannot be held."""
-    if unknown := [path for path in held if path not in RIG]:
-        raise ValueError(f"held takes {', '.join(RIG)}, got {unknown[0]!r}")
+    paths = list(paths)
+    if unknown := [path for path in held if path not in (*RIG, HOLD)]:
+        raise ValueError(f"held takes {', '.join((*RIG, HOLD))}, got {unknown[0]!r}")
+    if HOLD in held and "load" not in (*held, *paths):
+        raise ValueError(f"hold says what stays of a load: hold {{'load': ..., 'hold': {held[HOLD]!r}}}")
     taken = {field for path in paths for field in fields_set(path)}
-    return {
+    kept: dict[str, Any] = {
         path: positive(path, value) if path != "tan_delta" else not_negative(path, value)
         for path, value in held.items()
-        if not any(taken & {field, field.partition(".")[0]} for field in fields_set(path))
+        if path != HOLD and not any(taken & {field, field.partition(".")[0]} for field in fields_set(path))
     }
+    if HOLD in held and "load" in (*kept, *paths):
+        kept[HOLD] = hold_of(held[HOLD])
+    return kept
+
+
+def load_asked(settings: Mapping[str, Any], case: SlidingContact) -> float | None:
+    """The load [N] whose depth at rest these settings gave the case; None where no depth is driven, or hold said."""
+    driven = case.oscillation.knows_depth and HOLD not in settings
+    return settings.get("load") if driven else None
 
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
@@ -85,12 +101,15 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
             if "omega" in fields_of(parts.get(slot)):
                 changes[slot]["omega"] = omega
     if "load" in settings:
-        load = positive("load", settings["load"], "mean load in N")
+        load, hold = positive("load", settings["load"], "mean load in N"), hold_of(settings.get(HOLD, "depth"))
         if "F_z0" in fields_of(parts["oscillation"]):
             changes["oscillation"]["F_z0"] = load
         else:
             _require_field("load", parts["oscillation"], "u_z0")
-            changes["oscillation"]["u_z0"] = static_depth(changed("indenter"), changed("material"), load)
+            rest = static_depth(changed("indenter"), changed("material"), load)
+            changes["oscillation"]["u_z0"] = rest
+            if hold == "load":
+                return _under_mean_load(parts, settings, changed("oscillation"), load, rest)
     if "alpha" in settings:
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
@@ -115,8 +134,22 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
     return contact
 
 
-def value_at(case: SlidingContact, path: str) -> Any:
-    """The value of a case at a path, a group [-] and what a rig is set to included.
+def _under_mean_load(
+    parts: Mapping[str, Any], settings: Mapping[str, Any], motion: Motion, load: float, rest: float
+) -> SlidingContact:
+    """The contact with these settings about the mean depth at which the load is its mean load; motion: about `rest`."""
+    others = {path: value for path, value in settings.items() if path not in ("load", HOLD)}
+
+    def at(u_z0: float) -> SlidingContact:
+        return contact_of(parts, {**others, "oscillation.u_z0": u_z0})
+
+    swing = motion.cycle.unit * motion.cycle.greatest
+    least = rest / (1 + max(settings["alpha"], 0.0)) if "alpha" in settings else rest - swing
+    return under_mean_load(at, load, least, rest)
+
+
+def value_at(case: SlidingContact, path: str, hold: str = "depth") -> Any:
+    """The value of a case at a path, a group [-] and what a rig is set to included; hold: what the load is of.
 
     Infinite where there is no spring, mass or depth for it. Raises ValueError where the shape does not carry the load,
     and KeyError or AttributeError for what is no path.
@@ -124,7 +157,7 @@ def value_at(case: SlidingContact, path: str) -> Any:
     if path in GROUPS:
         return _group(case, path)
     if path in RIG:
-        return _setting(case, path)
+        return mean_normal_force(case) if path == "load" and hold == "load" else _setting(case, path)
     slot, _, field = path.rpartition(".")
     return getattr(getattr(case, slot) if slot else case, field)
 

@@ -14,10 +14,11 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.critical_velocity import critical_velocity
-from mdr.closed_forms.full_slip import mean_normal_force, static_cof
+from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.cof_curve import CofCurve
 from mdr.friction.measured_velocity import measure_critical_velocity
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.studies.axes import VELOCITIES
 from mdr.tools.arrays import Array
@@ -120,8 +121,11 @@ CATALOGUE: dict[str, Quantity] = {
 }
 
 
-def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) -> tuple[Quantity, ...]:
-    """The quantities of a study with axes of these paths, over v_0 with the critical velocity that maps are read by.
+def read_quantities(
+    quantities: Iterable[str | Quantity], paths: Iterable[str], beside: Iterable[str] = ()
+) -> tuple[Quantity, ...]:
+    """The quantities of a study with axes of these paths, over v_0 with the critical velocity that maps are read by,
+    and some besides.
 
     Raises ValueError or TypeError for what cannot be computed.
     """
@@ -140,7 +144,8 @@ def read_quantities(quantities: Iterable[str | Quantity], paths: Iterable[str]) 
     if not any(path in VELOCITIES for path in paths) and (moving := [one.name for one in found if one.per_velocity]):
         asks = "needs" if len(moving) == 1 else "need"
         raise ValueError(f'{" and ".join(moving)} {asks} a velocity: give an axis "v_0" [m/s] or "v_0/v_c"')
-    return found + ((CATALOGUE["v_c"],) if "v_0" in paths and "v_c" not in [*names, *paths] else ())
+    others = [*(("v_c",) if "v_0" in paths else ()), *beside]
+    return found + tuple(CATALOGUE[name] for name in others if name not in [*names, *paths])
 
 
 def _known(one: Any) -> Quantity:

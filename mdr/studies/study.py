@@ -346,7 +346,7 @@ def study_of(frame: Frame, values: Array, status: NDArray[np.uint8], why: Any) -
     return Study(**vars(frame), values=values, status=status, reason=reason, reasons=tuple(codes))
 
 
-def _text(case: SlidingContact, held: Mapping[str, float]) -> str:
+def _text(case: SlidingContact, held: Mapping[str, Any]) -> str:
     try:
         return written(case, held)
     except CaseFileError:

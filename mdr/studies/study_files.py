@@ -12,7 +12,8 @@
     indenter = [{ shape = "Cone", theta = 0.05 }, { shape = "Paraboloid", R = 5e-3 }]
     pull = [{}, { k_x = 2e4, m = 0.1 }]       # {} is a rigid pull
 
-A load, frequency or loss tangent that the file gives holds in every case, unless an axis sets what it sets.
+A load, frequency or loss tangent that the file gives holds in every case, unless an axis sets what it sets; of the load
+its mean, where hold = "load" stands beside it.
 
 A file that is wrong is refused with every fault at once.
 """
@@ -54,7 +55,7 @@ class StudyFile:
     n_springs: int | None
     steps_per_period: int | None
     accuracy: float
-    held: dict[str, float]  #: load [N] and tan_delta [-] that it gives
+    held: dict[str, Any]  #: load [N], with hold, and tan_delta [-] that it gives
 
 
 def read_study_file(path: str | PathLike[str]) -> StudyFile:
@@ -71,7 +72,7 @@ def parse_study(text: str, source: str = "<string>") -> StudyFile:
 
 def study_from(content: Mapping[str, Any]) -> StudyFile:
     """The study in tables already parsed. Raises CaseFileError with every fault."""
-    axes, faults = _read_axes(content.get("axes"))
+    axes, faults = _read_axes(content.get("axes"), "shake" in content)
     quantities = content.get("quantities", ["cof"])
     faults += _faults_of_names(quantities)
     knobs = {name: content.get(name) for name in ("n_springs", "steps_per_period")}
@@ -94,18 +95,18 @@ def study_from(content: Mapping[str, Any]) -> StudyFile:
 # --- axes ---
 
 
-def _read_axes(table: Any) -> tuple[dict[str, Any], list[str]]:
+def _read_axes(table: Any, is_shaken: bool) -> tuple[dict[str, Any], list[str]]:
     """Values by path, those that are well written, and what is wrong with the others."""
     if table is None:
         return {}, ['[axes] is missing; a study varies something, such as "v_0/v_c" = [0.5, 0.9]']
     if not isinstance(table, dict) or not table:
         return {}, ["[axes] must be a table of paths and their values"]
-    read = {path: tried(_read_values, path, written) for path, written in table.items()}
+    read = {path: tried(_read_values, path, written, is_shaken) for path, written in table.items()}
     faults = [f"[axes] {fault}" for _, found in read.values() for fault in found]
     return {path: values for path, (values, found) in read.items() if not found}, faults
 
 
-def _read_values(path: str, written: Any) -> Any:
+def _read_values(path: str, written: Any, is_shaken: bool) -> Any:
     """The values of an axis; CaseFileError or ValueError for what is wrong with them."""
     if isinstance(written, dict) and not set(written) & set(_RANGE) and path in KINDS:
         example = next(iter(written), "...")
@@ -118,7 +119,9 @@ def _read_values(path: str, written: Any) -> Any:
         raise ValueError(f"{path} must be a list of values or {{ from = , to = , n = }}, got {short(str(written))}")
     if path not in KINDS:
         return numbers_in(path, written, facts_at(path).unit)
-    read = [(RigidPull(), []) if path == "pull" and one == {} else tried(record_of, path, one) for one in written]
+    read = [
+        (RigidPull(), []) if path == "pull" and one == {} else tried(record_of, path, one, is_shaken) for one in written
+    ]
     if faults := [fault for _, found in read for fault in found]:
         raise CaseFileError.of(faults)
     return [record for record, _ in read]

@@ -8,11 +8,14 @@ from contextlib import suppress
 from os import PathLike, fsdecode
 from typing import Any
 
+import numpy as np
+
 from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.march.march import BUDGET, accuracy_of
+from mdr.normal.mean_load import warn_of_mean_loads
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import still_held
+from mdr.normal.vary import load_asked, still_held
 from mdr.studies.axes import read_axes
 from mdr.studies.engine import Call
 from mdr.studies.quantities import Quantity, read_quantities
@@ -37,7 +40,7 @@ def sweep(
     n_springs: int | None = None,
     steps_per_period: int | None = None,
     accuracy: float = BUDGET,
-    held: Mapping[str, float] | None = None,
+    held: Mapping[str, Any] | None = None,
 ) -> Study:
     """Quantities, each in its unit, over a grid of cases: a parameter study.
 
@@ -71,7 +74,9 @@ def sweep(
     held : mapping of str to float, optional
         What every case of the study has besides: "load" [N], "frequency" [Hz] or "tan_delta" [-], unless an axis sets
         the same. A load is held where shape or material vary, by another depth in every case; a loss tangent where the
-        frequency varies, by another tau. A study file holds the load and the loss tangent that it gives.
+        frequency varies, by another tau. A study file holds the load and the loss tangent that it gives. Beside a load
+        "hold" says what stays: "depth", at which it rests, or "load", its mean over the period. Where that is not said
+        of a driven depth, the study has the quantity "mean_F_N" too, and a warning says where it differs from the load.
 
     Returns
     -------
@@ -105,7 +110,9 @@ def sweep(
         if knob is not None:
             count(name, knob, LEAST_KNOB)
     knobs["accuracy"] = accuracy_of(accuracy)
-    work = Work(case, axes_read, read_quantities(quantities, axes), knobs, held)
+    is_asked = load_asked({**held, **axes}, case) is not None and "mean_F_N" not in axes
+    columns = read_quantities(quantities, axes, beside=["mean_F_N"] if is_asked else [])
+    work = Work(case, axes_read, columns, knobs, held)
     _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)
     _require_executor(executor)
@@ -113,7 +120,21 @@ def sweep(
         raise ValueError("a shard needs a store that the others are kept in: store= in Python, --store in a shell")
     if not isinstance(store, str | PathLike | None):
         raise TypeError(f"store must be a folder, got {short(repr(store))}")
-    return Call(work, None if store is None else Store(fsdecode(store)), executor).study(chunk_seconds, part)
+    study = Call(work, None if store is None else Store(fsdecode(store)), executor).study(chunk_seconds, part)
+    if is_asked:
+        _warn_of_loads(study, held)
+    return study
+
+
+def _warn_of_loads(study: Study, held: Mapping[str, Any]) -> None:
+    """Warn of points whose mean load is another than the load at rest, once for all."""
+    mean, asked = study["mean_F_N"], np.asarray(held.get("load", 0.0))
+    for i, axis in enumerate(study.grid):
+        if axis.path == "load":
+            asked = np.asarray(axis.values).reshape([-1 if i == j else 1 for j in range(mean.ndim)])
+    asked, known = np.broadcast_to(asked, mean.shape), np.isfinite(mean)
+    pairs = list(zip(asked[known].tolist(), mean[known].tolist(), strict=True))
+    warn_of_mean_loads(pairs, "at {n} of {of} points ")
 
 
 def _require_room(work: Work) -> None:

@@ -103,7 +103,7 @@ class Work:
     axes: tuple[Axis, ...]
     quantities: tuple[Quantity, ...]
     knobs: Mapping[str, Any] = field(default_factory=dict)  #: of runs: n_springs, steps_per_period and accuracy
-    held: Mapping[str, float] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
+    held: Mapping[str, Any] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
 
     @property
     def velocity_axis(self) -> Axis | None:

@@ -11,7 +11,8 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.closed_forms import paper
-from mdr.closed_forms.full_slip import full_slip, mean_normal_force, normal_force_harmonics
+from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
+from mdr.normal.normal_force import mean_normal_force
 
 # --- the normal force ---
 

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.case.contact import as_given
-from mdr.closed_forms.full_slip import followed
+from mdr.normal.normal_force import followed
 
 OMEGA = 300.0
 ELASTIC = mdr.Elastic(3e6, 0.4)

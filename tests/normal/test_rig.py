@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms.full_slip import mean_normal_force
+from mdr.normal.normal_force import mean_normal_force
 
 BALL, RUBBER = mdr.Sphere(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
 OMEGA = 2 * np.pi * 50

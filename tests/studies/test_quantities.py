@@ -9,7 +9,7 @@ from grids import BODY, COARSE, RIGID, depth
 from numpy.testing import assert_array_equal
 
 import mdr
-from mdr.closed_forms.full_slip import mean_normal_force
+from mdr.normal.normal_force import mean_normal_force
 from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
 
 OF_CASE = {

@@ -7,9 +7,9 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
 from mdr.closed_forms.across import across_alone, extent_across, held_across, places, pulled_rigidly, static_across
-from mdr.closed_forms.full_slip import normal_force
 from mdr.materials.base import Material
 from mdr.normal.followed_force import N_STEPS
+from mdr.normal.normal_force import normal_force
 from mdr.tools.checks import finite, instance, not_negative, positive
 
 TINY = 1e-300  #: of a square that is a zero

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.closed_forms.critical_velocity import critical_velocity
-from mdr.closed_forms.full_slip import mean_normal_force, normal_force_harmonics
+from mdr.closed_forms.full_slip import normal_force_harmonics
 from mdr.indenters.base import Indenter
 from mdr.normal.kelvin_edges import contact_edge, turning_phase
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.springs import SpringArray
 from mdr.tools.checks import count, positive
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.closed_forms.critical_velocity import critical_velocity
-from mdr.closed_forms.full_slip import mean_normal_force
 from mdr.closed_forms.paper import deficit
 from mdr.indenters.base import Indenter
+from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, finite, instance, not_negative, positive
 

@@ -1,0 +1,142 @@
+"""The normal force over one period, of any shape, amplitude, material and periodic depth, in closed form but for arms.
+
+It is the same whatever the springs do in the plane. On an elastic or Kelvin material contact_edge.py knows the gap g_c
+of the spring at the edge of the contact at any instant, under any periodic depth. The force follows from the elastic
+law alone,
+
+    F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
+
+What arms add to it is followed spring by spring: the difference between the material and the same one without its arms
+(followed_force.py). Under an oscillating load the force is known beforehand, F_N = F_z(t) - m_z u_z''.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.case.contact import SlidingContact
+from mdr.case.depth_cycle import harmonic_sum
+from mdr.case.motion import LoadOscillation
+from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.materials.operator import Rheology
+from mdr.normal.contact_edge import ContactEdge
+from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle
+from mdr.normal.resolved import resolved
+from mdr.tools.arrays import Array
+from mdr.tools.memoise import remembered
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
+
+
+@remembered(maxsize=8)
+def followed(case: SlidingContact, n_t: int = N_STEPS) -> NormalCycle:
+    """The normal contact of a case spring by spring, at n_t instants."""
+    known = normal_cycle(case.indenter, case.rheology, case.cycle, n_t, beside=Rheology(case.T))
+    if not known.in_contact.any() or not known.F_N.any():
+        raise ValueError(
+            f"u_z0 = {case.cycle.u_z0:.6g} m: the contact lasts less than 1/{n_t} of a period, as its springs are "
+            "touched so late, or released so soon, by their dashpots; press deeper, or lower tau"
+        )
+    return known
+
+
+@remembered(maxsize=8)
+def _added_by_arms(case: SlidingContact) -> Array:
+    """What the arms of a material add to F_N [N], at N_STEPS instants."""
+    bare = normal_cycle(case.indenter, Rheology(case.T), case.cycle, beside=case.rheology)
+    return case.material.E_star * (followed(case).F_N - bare.F_N)
+
+
+def edge_of(case: SlidingContact) -> ContactEdge:
+    """The edge of the contact without what arms change of it."""
+    return ContactEdge.of(case.cycle, case.T)
+
+
+def normal_force(case: SlidingContact, phase: Array) -> Array:
+    """F_N [N] in full slip at phases omega t of any shape, of a case of known depth."""
+    if case.oscillation.load is not None:
+        mean, F_n = load_harmonics(case)
+        return mean + harmonic_sum(F_n, phase)
+    F_N = _without_arms(case, phase)[0]
+    return np.maximum(F_N + _of_arms(case)(phase) if case.material.contact_arms else F_N, 0)
+
+
+def normal_force_rate(case: SlidingContact, phase: Array, slope: Callable[[Array], Array]) -> Array:
+    """dF_N/dphase [N], with 2 E* a(g_c) [d(u_z + tau u_z') + (u_z - g_c + tau u_z') d ln a(g_c)]: only the contact
+    radius has no derivative in closed form, which `slope` answers from its values at the phases.
+    """
+    n, cycle = np.arange(1, case.cycle.cos.size + 1), case.cycle
+    if case.oscillation.load is not None:
+        F_n = load_harmonics(case)[1]
+        return harmonic_sum(1j * np.arange(1, F_n.size + 1) * F_n, phase)
+    _, k_zc, above = _without_arms(case, phase)
+    rate = k_zc * cycle.unit * harmonic_sum(1j * n * (1 + 1j * n * case.T) * cycle.harmonics, phase) + above * slope(
+        k_zc
+    )
+    return np.asarray(rate + _of_arms(case)(phase, 1) if case.material.contact_arms else rate)
+
+
+def _without_arms(case: SlidingContact, phase: Array) -> tuple[Array, Array, Array]:
+    """F_N [N], 2 E* a(g_c) [N/m] and u_z - g_c + tau u_z' [m] of the material without its arms."""
+    cycle, E_star = case.cycle, case.material.E_star
+    edge = edge_of(case).gap(phase)
+    g_c = cycle.u_z0 + cycle.unit * edge
+    above = cycle.unit * (cycle.z(phase) - edge + case.T * cycle.rate(phase))
+    k_zc = np.asarray(case.indenter.stiffness(g_c, E_star))
+    return np.asarray(case.indenter.force(g_c, E_star)) + k_zc * above, k_zc, above
+
+
+def _of_arms(case: SlidingContact) -> CubicSpline:
+    """What the arms of a material add to F_N [N], over the phase."""
+    from scipy.interpolate import CubicSpline
+
+    added = _added_by_arms(case)
+    return CubicSpline(2 * np.pi * np.arange(added.size + 1) / added.size, [*added, added[0]], bc_type="periodic")
+
+
+def load_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]]:
+    """Mean [N] and harmonics F_n [N], n = 1 ... N, of F_N = F_z(t) - m_z u_z'' under a load."""
+    load, cycle = case.oscillation.load, case.cycle
+    if not isinstance(load, LoadOscillation):
+        return getattr(load, "F_z0", 0.0), np.zeros(0, dtype=complex)
+    n = np.arange(1, cycle.cos.size + 1)
+    F_n = load.m_z * case.omega**2 * cycle.unit * n**2 * cycle.harmonics
+    F_n[case.repeats[0] - 1] += load.dF_z
+    return load.F_z0, F_n
+
+
+def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
+    """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth; with joints
+    also those at which pieces of a curve meet, where it is as smooth as a spline.
+    """
+    shape, cycle = case.indenter, case.cycle
+    radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
+    depths = {0.0, *(shape.profile_1d(np.array(radii)).tolist() if radii else ())}
+    gaps, kept = {(depth - cycle.u_z0) / cycle.unit for depth in depths}, cycle.kept_gap(Rheology(case.T).response)
+    return tuple(sorted(gap for gap in gaps if kept < gap < cycle.greatest))
+
+
+def corners(case: SlidingContact, joints: bool = False) -> Array:
+    """Phases at which F_N without arms is not smooth, ascending: the edge turns, or crosses one of the marks."""
+    edge = edge_of(case)
+    crossed = [phase for gap in edge_marks(case, joints) for some in edge.crossings(gap) for phase in some]
+    return np.unique(np.mod([*edge.begins, *crossed], 2 * np.pi))
+
+
+def mean_normal_force(case: SlidingContact) -> float:
+    """Mean of F_N over the period [N], by the double-exponential rule between the instants at which it is not smooth.
+
+    While springs slide, stick or fly their mean force is that of their mean compression: it is the same in any run.
+    """
+    case = resolved(case)
+    if case.oscillation.load is not None:
+        return load_harmonics(case)[0]
+    instants = corners(case, joints=True)
+    instants = np.append(instants, instants[0] + 2 * np.pi)
+    mean = double_exponential().integral(lambda phase: _without_arms(case, phase)[0], instants) / (2 * np.pi)
+    return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
