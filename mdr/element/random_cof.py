@@ -43,7 +43,7 @@ class RandomCof(Summarised, Tabled, ArrayRecord):
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: mean F_x over mean F_z, over all realisations [-]
     standard_error: Array  #: of cof, from the spread of the realisations [-]
-    cof_error: Array  #: numerical error of cof, of step and springs [-]
+    cof_error: Array  #: estimate of the numerical error of cof, of step and springs [-]
     realisations: Array  #: (n_realisations, n_v) mean F_x over mean F_z of each [-]; NaN where one never touches
     mu_0: float  #: local coefficient of friction [-]
     duration: float  #: of a realisation [s]

@@ -48,7 +48,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
 
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
-    cof_error: Array  #: bound on its numerical error, and on that of cof_y [-]
+    cof_error: Array  #: bound on its error, and on that of cof_y, estimated of runs; 2 mu_0 of one not settled [-]
     settled: NDArray[np.bool_]  #: whether the run settled
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
     v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
@@ -196,7 +196,7 @@ def cof_curve(
         back = -static
     elif np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
         back = -float(_at_rest(case.mirrored, friction)[0])
-    n = velocities.size
+    error, n = np.where(settled, np.minimum(error, 2 * case.mu_0), 2 * case.mu_0), velocities.size
     return CofCurve(
         v_0=velocities,
         cof=cof[:n],

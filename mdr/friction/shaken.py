@@ -33,7 +33,7 @@ class HoldingBand:
 
     low: float  #: limit of the friction pulled ever slower the other way, v_0 -> -0 [-]
     high: float  #: the same pulled forward, v_0 -> +0 [-]
-    error: float  #: bound on the numerical error of either [-]
+    error: float  #: bound on the numerical error of either, estimated from slow runs where no closed form tells [-]
 
     @property
     def is_one_number(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -75,14 +75,19 @@ def in_three_dimensions(case: SlidingContact, v_0: float, settings: Settings) ->
     return last_period(case, v_0, settings).friction
 
 
-def last_period(case: SlidingContact, v_0: float, settings: Settings, start: Step | None = None) -> LastPeriod:
+def last_period(
+    case: SlidingContact, v_0: float, settings: Settings, start: Step | None = None, arrived: bool = False
+) -> LastPeriod:
     """The last period at v_0 [m/s], from `start`, the end of another one, on; as a default from full slip.
 
+    A contact at rest, or shaken across, which loses more of its force than a slow pull gives back in a period, has not
+    settled before the pull has gone the way of full slip; arrived: unless it begins at its end at this velocity.
     Raises NotConverged, and ValueError for what `contact_of` refuses.
     """
     contact = contact_of(case, settings)
     depth, way, dt = path(case, v_0, settings)
     toward = 0.0 if settings.from_rest else np.copysign(1.0, v_0)
+    far = 0.0 if arrived or not (settings.from_rest or case.moves_across) else case.mu_0 * case.material.mindlin_ratio
     state, forces = start or contact.full_slip(float(depth[0]), toward), []
     ticker = Ticker("half-space", parts="steps")
     for _ in range(settings.cycles):
@@ -93,6 +98,8 @@ def last_period(case: SlidingContact, v_0: float, settings: Settings, start: Ste
         state = steps[-1]
         forces.append([contact.forces(step.tractions) for step in steps])
         friction = Friction.over(np.array(forces))
+        if abs(v_0) * case.period * len(forces) < far * float(depth.max()):
+            friction = replace(friction, settling=2 * case.mu_0)
         if (len(forces) > 2 and friction.settling <= settings.settled * case.mu_0) or time_is_over():
             break
     return LastPeriod(friction, contact, tuple(steps))

@@ -45,7 +45,7 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z in the last period [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
-    cof_error: float  #: bound on the numerical error of either: grid, step and cycle together, at most 2 mu_0 [-]
+    cof_error: float  #: estimated bound on the error of either: grid, step and cycle; 2 mu_0 if it has not settled [-]
     grid_error: float  #: part of the cells: twice what half as many change, or more [-]
     step_error: float  #: part of the time steps: twice what half as many change, or more [-]
     cycle_error: float  #: part of the start: what further periods would change [-]
@@ -126,7 +126,7 @@ class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
     cof_y: Array  #: that of the force across the pull [-]
-    cof_error: Array  #: bound on the numerical error of either [-]
+    cof_error: Array  #: estimated bound on the numerical error of either; 2 mu_0 where it has not settled [-]
     grid_error: Array  #: part of the cells [-]
     step_error: Array  #: part of the time steps [-]
     cycle_error: Array  #: part of the start [-]
@@ -378,7 +378,7 @@ def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: End
     for name, other in coarser.items():
         if time_is_over():
             break
-        found = last_period(case, v_0, other, begin[name])
+        found = last_period(case, v_0, other, begin[name], arrived=begin[name] is fine.steps[-1])
         ends = ends._replace(**{name: found.steps[-1]})
         errors[name] = max(TWICE * _apart(fine.friction, found.friction), least[name])
     return _record(case, v_0, settings, fine, errors["wide"], errors["halved"]), ends
@@ -413,7 +413,7 @@ def _record(
     return HalfSpaceRun(
         cof=found.cof,
         cof_y=found.cof_y,
-        cof_error=min(grid + step + rest, 2 * mu_0),
+        cof_error=min(grid + step + rest, 2 * mu_0) if settled else 2 * mu_0,
         grid_error=grid,
         step_error=step,
         cycle_error=rest,

@@ -71,6 +71,8 @@ class Waiting:
                     return orbit
             if time_is_over():
                 return self._ended(replace(settling, why=f"the time limit is over after {self.n} periods"))
+            if self._is_late and self.scaled.drive.is_shaken and FEW * self._way > most:
+                return self._ended(replace(settling, why=self._why_late))
             if not self._may_settle_by(most):
                 break
             self.advance(max(4, self.n // 2))
@@ -95,6 +97,19 @@ class Waiting:
             return replace(settling, settled=False, kind="unsettled", why=why)
         return settling
 
+    @property
+    def _is_late(self) -> bool:
+        """Whether the pull has not yet drawn all springs as far as it goes."""
+        return self.late > self.stepper.tolerance
+
+    @cached_property
+    def _way(self) -> float:
+        return way_from_rest(self.scaled, self.stepper.v)
+
+    @property
+    def _why_late(self) -> str:
+        return f"after {self.n} periods {LATE}, which may take {self._way:.2g} of them"
+
     def _is_full(self, cof: float) -> bool:
         """Whether next to nothing is missing in the COF, of what oscillations can take from it."""
         return abs(1 - cof) <= TOLERANCE * self.scaled.at_stake
@@ -102,8 +117,8 @@ class Waiting:
     def _still_moves(self, cof: float) -> str:
         """Why a COF that has settled is not the end of the motion; nothing if it is."""
         scaled, n = self.scaled, self.n
-        if self.late > self.stepper.tolerance:
-            return f"after {n} periods {LATE}, which may take {way_from_rest(scaled, self.stepper.v):.2g}"
+        if self._is_late:
+            return self._why_late
         if not scaled.body.M:
             return ""
         changes = (abs(self.growth) if scaled.body.C == 0 else self.growth) * n > SWING_TOLERANCE
@@ -150,9 +165,6 @@ class Waiting:
 
     def _may_settle_by(self, most: int) -> bool:
         """Whether to wait on: not where a resonance drives the swing so slowly that stick never stops it in time."""
-        is_late = self.late > self.stepper.tolerance and self.scaled.drive.is_shaken
-        if is_late and FEW * way_from_rest(self.scaled, self.stepper.v) > most:
-            return False
         driven = self.n > 64 and self.growth * self.n > SWING_TOLERANCE
         full = self._is_full(self.periods.cof[-1])
         if driven and np.isinf(self.scaled.full_slip.end) and self.scaled.body.M and full:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import contact
+from conftest import contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
@@ -198,3 +198,55 @@ def test_the_account_of_a_period_is_held_to_its_steps():
     end.account.seen.sums[FRICTION_LOSS] *= 0.9
     assert missing(0.0).startswith("the energies of a period do not close")
     assert missing(0.1) == ""  # within the error that is stated
+
+
+# --- what has hardly moved ---
+
+
+def shaken(kind):
+    """A ball whose depth vibrates, shaken across or along the pull, alone or under a body."""
+    rubber, reach = mdr.Elastic(3e6, 0.5), 0.5 * 1.5 * 2e-5
+    shake = mdr.InPlaneOscillation(300.0, **{"du_y" if kind == "across" else "du_x": 0.5 * reach})
+    motion, pull = mdr.NormalOscillation(2e-5, 1e-5, 300.0), mdr.RigidPull()
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), rubber, 0.5, motion, pull, shake)
+    if kind == "body":
+        k = 2 * case.k_xc
+        case = replace(case, pull=mdr.SpringPull(k, k / 480.0**2, 0.4 * k / 480.0))
+    return case, reach * 300.0
+
+
+@pytest.mark.parametrize("kind", ["across", "body"])
+def test_the_slower_a_pull_the_less_is_known_of_a_run_that_has_hardly_moved(kind):
+    """Friction falls to its limit at rest; a run from full slip is shaken down below it first, and pulled up slowly."""
+    case, unit = shaken(kind)
+    limit, *runs = (mdr.slide(case, v * unit, n_springs=32, steps_per_period=64) for v in (0.01, 1e-8, 1e-12))
+    assert limit.settled
+    for run in runs:
+        assert abs(run.cof - limit.cof) <= run.cof_error + 0.05 * case.mu_0  # by which friction rises up to there
+        assert run.settled or (run.cof_error == 2 * case.mu_0 and "slow pull" in run.why)
+
+
+@pytest.mark.parametrize("v_hat", [0.3, 0.9])
+def test_small_amplitudes_settle_and_lose_in_proportion(v_hat):
+    """The share of the amplitude that is lost tends to a limit; a run of 1e-8 never settled, with an error of 1e-12."""
+
+    def run_of(alpha):
+        one = contact("paraboloid", 1 / alpha, 0.0, 2.0, 1.6, 0.2)
+        return mdr.slide(one, v_hat * unit_of_velocity(one))
+
+    known = run_of(1e-4)
+    lost = (known.mu_0 - known.cof) / 1e-4
+    for alpha in (1e-6, 1e-8):
+        run = run_of(alpha)
+        assert run.settled
+        assert_allclose((run.mu_0 - run.cof) / alpha, lost, rtol=1e-3)
+        assert run.cof_error < 0.01 * (run.mu_0 - run.cof)
+
+
+@pytest.mark.parametrize("knobs", [{"n_periods": 9}, {"n_periods": 3}, {"limit_s": 1e-6}])
+def test_a_run_that_has_not_settled_knows_of_friction_that_it_is_friction(knobs):
+    """Windows that agree, or an error of step and springs, bound nothing there."""
+    case = contact("paraboloid", 3.0, k_ratio=0.7, omega_0_ratio=1.6)
+    run = mdr.slide(case, 0.3 * unit_of_velocity(case), start="rest", n_springs=32, steps_per_period=64, **knobs)
+    assert not run.settled
+    assert run.cof_error == 2 * case.mu_0
