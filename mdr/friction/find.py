@@ -114,7 +114,7 @@ def find(
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
     >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
     >>> print(mdr.find(case, "du_z", v_0=1e-4, cof=0.2))
-    oscillation.du_z = 7.2068 µm, mean load 0.0641 N
+    oscillation.du_z = 7.2068 µm, mean load 85.407 mN
     """
     case = as_given(case)
     at_rest(case)  # warns of what is unlikely

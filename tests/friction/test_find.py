@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.friction import find as module
 from mdr.friction.cof_curve import friction_at
+from mdr.march.march import BUDGET, LEAST_ACCURATE
 from mdr.normal.vary import case_at
 
 BALL, RUBBER, OMEGA = mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=2e-4), 314.0
@@ -76,6 +77,22 @@ def test_a_body_is_found_by_runs():
     wanted = mdr.slide(BODY, v_0).cof
     found = mdr.find(BODY, "du_z", v_0=v_0, cof=wanted, within=(3e-6, 5e-6))
     assert_allclose(found.values, [4e-6], rtol=1e-3)  # of runs whose errors are 1e-5 of mu_0
+
+
+def test_trial_runs_are_coarse_and_the_answer_is_not(monkeypatch):
+    """The side of a value needs a run whose error is less than what it misses; the value itself full accuracy."""
+    asked = []
+
+    def friction(one, v, accuracy):
+        asked.append(accuracy)
+        return friction_at(one, v, accuracy)
+
+    monkeypatch.setattr(module, "friction_at", friction)
+    v_0 = 0.5 * mdr.critical_velocity(BODY)
+    (value,) = mdr.find(BODY, "du_z", v_0=v_0, cof=0.45, within=(1e-6, 5e-6)).values
+    run = mdr.slide(case_at(BODY, {"oscillation.du_z": value}), v_0)
+    assert abs(run.cof - 0.45) <= 0.02 * run.cof_error
+    assert asked.count(BUDGET) <= 8 < asked.count(LEAST_ACCURATE)
 
 
 NONE = [

@@ -342,3 +342,18 @@ def test_contact_lost_on_an_elastic_face_is_exact():
     touch = -math.acos(1 / 3)
     rate = MU_0 * RUBBER.mindlin_ratio * OMEGA * 15e-6 * -math.sin(touch) - OMEGA * 1e-5 * math.sin(touch + 2.0)
     assert mdr.full_slip_critical_velocity(case, -1) == pytest.approx(rate, rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    "material", [mdr.Elastic(3e6, 0.5), mdr.KelvinVoigt(3e6, 0.5, 1e-3)], ids=["elastic", "Kelvin"]
+)
+@pytest.mark.parametrize(
+    "load", [mdr.ConstantDepth(20e-6), mdr.ConstantLoad(0.05), mdr.NormalOscillation(2e-5, 5e-6, 600.0)]
+)
+def test_what_cancels_is_zero_and_no_rounding(material, load):
+    """A shake that is the same both ways, and wide enough that every spring slips: nothing is held."""
+    for phase in (0.0, 0.5 * np.pi):
+        shake = mdr.InPlaneOscillation(300.0, du_x=60e-6, phi_x=phase)
+        case = mdr.SlidingContact(mdr.Paraboloid(5e-3), material, 0.4, load, shake=shake)
+        band = mdr.holding_band(case)
+        assert (band.low, band.high, mdr.blocked_cof(case)) == (0.0, 0.0, 0.0)
