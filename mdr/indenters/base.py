@@ -448,7 +448,7 @@ class Indenter(Record, ABC):
             raise ValueError(f"{type(self).__name__} is no shape: {wrong}")
 
     def _mapped(self, radius: float) -> "Survey":
-        """How g is within a radius [m]; warns where two quadrature rules disagree, ValueError where it is not finite."""
+        """How g is within a radius [m]. Warns where two quadrature rules disagree, refuses where it is not finite."""
         found = self._surveyed(radius)
         if not np.isfinite(found.error):
             why = found.why_not or "it has no finite slope: name its end (r_max)"
@@ -492,15 +492,20 @@ def survey(shape: Indenter, radius: float) -> Survey:
     with np.errstate(all="ignore"):
         r = radius * (np.append(0, FINE) if shape._gives_g else np.linspace(0, 1, SAMPLES + 1))
         heights = (shape._g if shape._gives_g else shape._f)(r)
-        if heights[0] != 0:
-            return Survey(f"its height is {heights[0]!r} m on the axis, and the depth counts from 0 there", np.inf)
         if not (known := np.isfinite(heights)).all():
             end = r[np.argmin(known)]
             return Survey(f"it has no finite height at {end:.6g} m from the axis: name its end (r_max)", np.inf)
+        if abs(heights[0]) > SAME * np.max(np.abs(heights)):
+            return Survey(f"its height is {heights[0]:.6g} m on the axis, where the depth counts from 0", np.inf)
         error = _error_of_map(shape, radius)
-        x = np.unique(radius * FINE if shape._gives_g else np.append(radius * GRID, bends_down(heights, r)))
-        g, further = shape._directly(x), shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
-        area = shape._area(x) if shape._gives_g else area_of(shape).direct(x)
+        further = shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
+        x = radius * (FINE if shape._gives_g else GRID)
+        g, area = shape._directly(x), shape._area(x) if shape._gives_g else area_of(shape).direct(x)
+        if not shape._gives_g and (some := bends_down(heights, r)).size:
+            edges = tuple(np.unique([*shape._edges, *some]).tolist())  # windows of a derivative may miss a dip
+            more = some, abel.profile_1d(shape._f, edges, some), abel.area_from_f(shape._f, edges, some)
+            x, g, area = (np.append(*two) for two in zip((x, g, area), more, strict=True))
+            x, g, area = (one[np.argsort(x)] for one in (x, g, area))
         V = 2 * (g * x - area)
     height = max(float(np.max(np.abs(g))), float(np.nan_to_num(further[0], posinf=0.0)))
     near = SAME * height / (np.max(np.abs(g)) or 1.0)  # at a flat face g is rounding up to a

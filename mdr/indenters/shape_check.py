@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mdr.tools.arrays import EPS, SAME, Array
+from mdr.tools.arrays import SAME, Array
 
 GRID = np.unique(np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))  #: radii, many at the tip
 FINE = np.unique(np.append(GRID, np.linspace(0, 1, 513)[1:]))  #: where they cost little
@@ -29,7 +29,7 @@ def why_no_shape(d: Array, a: Array, V: Array | None = None, near: float = SAME,
             if not np.isfinite(values).all():
                 i = int(np.argmin(np.isfinite(values)))
                 return f"{name} is {values[i]:.6g} {_place(i, d, a)}, where it must be finite"
-        if (i := _first(a < np.where(d > 0, EPS * near, 0) * a.max())) is not None:
+        if (i := _first((a < 0) | ((a == 0) & (d > near * d.max())))) is not None:
             return f"the contact radius is {a[i]:.6g} m {_place(i, d, a)}, where it must be positive"
         if (i := _first(np.maximum.accumulate(a) - a > near * a.max())) is not None:
             return f"the contact radius falls at d = {d[i]:.6g} m, so that the contact would shrink there"
@@ -54,11 +54,12 @@ def falls_at(x: float) -> str:
     )
 
 
-def bends_down(f: Array, r: Array, most: int = 48) -> Array:
-    """Radii, of r (n,), at which r f' falls most: where it rises g does, as dg/dx = ∫₀^{π/2} (r f')' dt."""
+def bends_down(f: Array, r: Array, most: int = 4) -> Array:
+    """Radii, of r (n,), behind where r f' falls most: where it rises g does, as dg/dx = ∫₀^{π/2} (r f')' dt."""
     turn = np.diff((r[1:] + r[:-1]) / 2 * np.diff(f))
     deepest = np.argsort(turn)[:most]
-    return np.asarray(r[1:-1][deepest[turn[deepest] < -SAME * np.max(np.abs(turn))]])
+    deepest = deepest[turn[deepest] < -SAME * np.max(np.abs(turn))]
+    return np.unique(r[np.minimum(deepest[:, None] + np.arange(1, 5), r.size - 1)])
 
 
 def noise_of(x: Array, y: Array) -> float:
