@@ -18,8 +18,6 @@ What a frozen shape has been asked for is kept (`survey`, `image_of`), so that a
 
 import warnings
 from abc import ABC
-from collections.abc import Callable
-from functools import wraps
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -28,7 +26,7 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.chebyshev_panels import Chart
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.shape_check import AGREE, FINE, GRID, bends_down, why_no_shape
+from mdr.indenters.shape_check import AGREE, FINE, GRID, bends_down, held, real, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, plain, positive_array
 from mdr.tools.fields import Record
@@ -52,10 +50,10 @@ class Indenter(Record, ABC):
         super().__init_subclass__(**options)
         for public, hook in HOOKS.items():
             if public in vars(cls) and hook not in vars(cls):
-                setattr(cls, hook, _real(public, vars(cls)[public]))
+                setattr(cls, hook, real(public, vars(cls)[public]))
         if not cls.__module__.startswith(__package__ + "."):  # the tests hold those to it
             for name in HELD & vars(cls).keys():
-                setattr(cls, name, _held(name, vars(cls)[name]))
+                setattr(cls, name, held(vars(cls)[name], getattr(Indenter, name)))
         cls._gives_g = cls._g is not Indenter._g
         if not cls._gives_g and cls._f is Indenter._f:
             raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
@@ -522,46 +520,6 @@ def _error_of_map(shape: Indenter, radius: float) -> float:
     else:
         one, other = shape._directly(x), abel.profile_1d(shape._f, shape._edges, x, rule)
     return float(np.nan_to_num(np.max(np.abs(one - other)) / (np.max(np.abs(one)) or 1.0), nan=np.inf))
-
-
-def _real(name: str, own: Callable[..., Array]) -> Callable[..., Array]:
-    """A profile of a user's class, which must answer as many real numbers as it is asked for."""
-
-    @wraps(own)
-    def real(self: Indenter, r: Array) -> Array:
-        answer = np.asarray(own(self, r))
-        if answer.dtype.kind not in "iufb" or answer.shape not in ((), np.shape(r)):
-            raise TypeError(
-                f"{name} of {type(self).__name__} must answer an array of radii with as many real heights, got "
-                f"{answer!r}"
-            )
-        return np.broadcast_to(answer.astype(np.float64, copy=False), np.shape(r))
-
-    return real
-
-
-def _held(name: str, own: Callable[..., Array]) -> Callable[..., Array]:
-    """A method of a user's class, compared with what g says whenever it is asked."""
-
-    @wraps(own)
-    def held(self: Indenter, d: ArrayLike, *given: ArrayLike, **named: ArrayLike) -> Array:
-        answer = own(self, d, *given, **named)
-        with np.errstate(all="ignore"):
-            if name == "contact_radius":
-                self._refuse_other_radii(finite_array("d", d, "m"), np.asarray(answer, dtype=float))
-                return answer
-            expected = getattr(Indenter, name)(self, d, *given, **named)
-            off = np.abs(np.asarray(answer) - expected)
-            if not np.all(off <= AGREE * np.max(np.abs(expected), initial=0.0)):
-                i = np.unravel_index(np.argmax(np.nan_to_num(off, nan=np.inf)), np.shape(off))
-                raise ValueError(
-                    f"{name} of {type(self).__name__} answers {np.asarray(answer)[i]:.6g} where its g(x) makes it "
-                    f"{np.asarray(expected)[i]:.6g}, at d = {np.broadcast_to(d, np.shape(off))[i]:.6g} m: correct it, "
-                    "or leave it out"
-                )
-        return answer
-
-    return held
 
 
 def rim_pressure(r: Array, a: Array | float, step: Array | float) -> Array:
