@@ -18,8 +18,6 @@ What a frozen shape has been asked for is kept (`survey`, `image_of`), so that a
 
 import warnings
 from abc import ABC
-from collections.abc import Callable
-from functools import wraps
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -28,7 +26,7 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.chebyshev_panels import Chart
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.shape_check import AGREE, FINE, GRID, bends_down, why_no_shape
+from mdr.indenters.shape_check import AGREE, FINE, GRID, bends_down, held, real, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, plain, positive_array
 from mdr.tools.fields import Record
@@ -52,10 +50,10 @@ class Indenter(Record, ABC):
         super().__init_subclass__(**options)
         for public, hook in HOOKS.items():
             if public in vars(cls) and hook not in vars(cls):
-                setattr(cls, hook, _real(public, vars(cls)[public]))
+                setattr(cls, hook, real(public, vars(cls)[public]))
         if not cls.__module__.startswith(__package__ + "."):  # the tests hold those to it
             for name in HELD & vars(cls).keys():
-                setattr(cls, name, _held(name, vars(cls)[name]))
+                setattr(cls, name, held(vars(cls)[name], getattr(Indenter, name)))
         cls._gives_g = cls._g is not Indenter._g
         if not cls._gives_g and cls._f is Indenter._f:
             raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
@@ -448,7 +446,7 @@ class Indenter(Record, ABC):
             raise ValueError(f"{type(self).__name__} is no shape: {wrong}")
 
     def _mapped(self, radius: float) -> "Survey":
-        """How g is within a radius [m]; warns where two quadrature rules disagree, ValueError where it is not finite."""
+        """How g is within a radius [m]. Warns where two quadrature rules disagree, refuses where it is not finite."""
         found = self._surveyed(radius)
         if not np.isfinite(found.error):
             why = found.why_not or "it has no finite slope: name its end (r_max)"
@@ -492,15 +490,20 @@ def survey(shape: Indenter, radius: float) -> Survey:
     with np.errstate(all="ignore"):
         r = radius * (np.append(0, FINE) if shape._gives_g else np.linspace(0, 1, SAMPLES + 1))
         heights = (shape._g if shape._gives_g else shape._f)(r)
-        if heights[0] != 0:
-            return Survey(f"its height is {heights[0]!r} m on the axis, and the depth counts from 0 there", np.inf)
         if not (known := np.isfinite(heights)).all():
             end = r[np.argmin(known)]
             return Survey(f"it has no finite height at {end:.6g} m from the axis: name its end (r_max)", np.inf)
+        if abs(heights[0]) > SAME * np.max(np.abs(heights)):
+            return Survey(f"its height is {heights[0]:.6g} m on the axis, where the depth counts from 0", np.inf)
         error = _error_of_map(shape, radius)
-        x = np.unique(radius * FINE if shape._gives_g else np.append(radius * GRID, bends_down(heights, r)))
-        g, further = shape._directly(x), shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
-        area = shape._area(x) if shape._gives_g else area_of(shape).direct(x)
+        further = shape._directly(np.array([min(1.02 * radius, shape.max_radius)]))
+        x = radius * (FINE if shape._gives_g else GRID)
+        g, area = shape._directly(x), shape._area(x) if shape._gives_g else area_of(shape).direct(x)
+        if not shape._gives_g and (some := bends_down(heights, r)).size:
+            edges = tuple(np.unique([*shape._edges, *some]).tolist())  # windows of a derivative may miss a dip
+            more = some, abel.profile_1d(shape._f, edges, some), abel.area_from_f(shape._f, edges, some)
+            x, g, area = (np.append(*two) for two in zip((x, g, area), more, strict=True))
+            x, g, area = (one[np.argsort(x)] for one in (x, g, area))
         V = 2 * (g * x - area)
     height = max(float(np.max(np.abs(g))), float(np.nan_to_num(further[0], posinf=0.0)))
     near = SAME * height / (np.max(np.abs(g)) or 1.0)  # at a flat face g is rounding up to a
@@ -517,46 +520,6 @@ def _error_of_map(shape: Indenter, radius: float) -> float:
     else:
         one, other = shape._directly(x), abel.profile_1d(shape._f, shape._edges, x, rule)
     return float(np.nan_to_num(np.max(np.abs(one - other)) / (np.max(np.abs(one)) or 1.0), nan=np.inf))
-
-
-def _real(name: str, own: Callable[..., Array]) -> Callable[..., Array]:
-    """A profile of a user's class, which must answer as many real numbers as it is asked for."""
-
-    @wraps(own)
-    def real(self: Indenter, r: Array) -> Array:
-        answer = np.asarray(own(self, r))
-        if answer.dtype.kind not in "iufb" or answer.shape not in ((), np.shape(r)):
-            raise TypeError(
-                f"{name} of {type(self).__name__} must answer an array of radii with as many real heights, got "
-                f"{answer!r}"
-            )
-        return np.broadcast_to(answer.astype(np.float64, copy=False), np.shape(r))
-
-    return real
-
-
-def _held(name: str, own: Callable[..., Array]) -> Callable[..., Array]:
-    """A method of a user's class, compared with what g says whenever it is asked."""
-
-    @wraps(own)
-    def held(self: Indenter, d: ArrayLike, *given: ArrayLike, **named: ArrayLike) -> Array:
-        answer = own(self, d, *given, **named)
-        with np.errstate(all="ignore"):
-            if name == "contact_radius":
-                self._refuse_other_radii(finite_array("d", d, "m"), np.asarray(answer, dtype=float))
-                return answer
-            expected = getattr(Indenter, name)(self, d, *given, **named)
-            off = np.abs(np.asarray(answer) - expected)
-            if not np.all(off <= AGREE * np.max(np.abs(expected), initial=0.0)):
-                i = np.unravel_index(np.argmax(np.nan_to_num(off, nan=np.inf)), np.shape(off))
-                raise ValueError(
-                    f"{name} of {type(self).__name__} answers {np.asarray(answer)[i]:.6g} where its g(x) makes it "
-                    f"{np.asarray(expected)[i]:.6g}, at d = {np.broadcast_to(d, np.shape(off))[i]:.6g} m: correct it, "
-                    "or leave it out"
-                )
-        return answer
-
-    return held
 
 
 def rim_pressure(r: Array, a: Array | float, step: Array | float) -> Array:

@@ -20,7 +20,7 @@ from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
-from mdr.indenters.shape_check import noise_of, told_smoothing, why_no_shape
+from mdr.indenters.shape_check import told_smoothing, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_table import fault
@@ -292,5 +292,5 @@ class FromForce(Indenter):
         """The contact must grow while it is pressed deeper."""
         if why := self._why_no_shape():
             d, F = np.array(self.d), np.array(self.F)
-            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, noise_of(d, F), 0.3 * max(F), "N")
+            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, d, F, "N")
             raise ValueError(f"F must rise more and more steeply, but {why}; {smoothing}")

@@ -15,7 +15,7 @@ import numpy as np
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
-from mdr.indenters.shape_check import FINE, noise_of, told_smoothing, why_no_shape
+from mdr.indenters.shape_check import FINE, told_smoothing, why_no_shape
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_table import fault
@@ -106,7 +106,7 @@ class SampledProfile(Indenter):
         self._require_points(self.kinks)
         if why := self._why_no_shape():
             r, f = np.array(self.r), np.array(self.f)
-            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, noise_of(r, f), 0.3 * range_of_f, "m")
+            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, r, f, "m")
             raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {smoothing}")
 
     def _why_no_shape(self) -> str:

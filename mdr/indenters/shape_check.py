@@ -8,10 +8,16 @@ as dF_N/dd = 2E*a. What is made of data, of a function or by a class of a user i
 """
 
 from collections.abc import Callable
+from functools import wraps
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from mdr.tools.arrays import EPS, SAME, Array
+from mdr.tools.arrays import SAME, Array
+from mdr.tools.checks import finite_array
+
+Method = Callable[..., Array]
 
 GRID = np.unique(np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))  #: radii, many at the tip
 FINE = np.unique(np.append(GRID, np.linspace(0, 1, 513)[1:]))  #: where they cost little
@@ -29,36 +35,90 @@ def why_no_shape(d: Array, a: Array, V: Array | None = None, near: float = SAME,
             if not np.isfinite(values).all():
                 i = int(np.argmin(np.isfinite(values)))
                 return f"{name} is {values[i]:.6g} {_place(i, d, a)}, where it must be finite"
-        if (i := _first(a < np.where(d > 0, EPS * near, 0) * a.max())) is not None:
-            return f"the contact radius is {a[i]:.6g} m {_place(i, d, a)}, where it must be positive"
-        if (i := _first(np.maximum.accumulate(a) - a > near * a.max())) is not None:
-            return f"the contact radius falls at d = {d[i]:.6g} m, so that the contact would shrink there"
-        if (i := _first(np.maximum.accumulate(np.maximum(d, 0)) - d > near * np.abs(d).max())) is not None:
-            return falls_at(a[i])
-        if V is not None:
-            rise, spare = np.diff(V), max(near, near_V) * a.max() * d.max()
-            least, most = 2 * a[:-1] * np.diff(d), 2 * a[1:] * np.diff(d)
-            if (i := _first((rise < least - spare) | (rise > most + spare))) is not None:
-                return (
-                    f"F_N/E* rises by {rise[i]:.6g} m² between d = {d[i]:.6g} and {d[i + 1]:.6g} m, and 2 a, by which "
-                    f"it must rise per depth, is {2 * a[i]:.6g} to {2 * a[i + 1]:.6g} m there"
-                )
-    return ""
+        below = (a < 0) | ((a == 0) & (d > near * d.max()))
+        shrinks = np.maximum.accumulate(a) - a > near * a.max()
+        falls = np.maximum.accumulate(np.maximum(d, 0)) - d > near * np.abs(d).max()
+        for wrong, words in ((below, _negative), (shrinks, _shrinks), (falls, _falls)):
+            if wrong.any():
+                return words(d, a, int(np.argmax(wrong)))
+        return "" if V is None else _not_the_force(d, a, V, max(near, near_V) * a.max() * d.max())
 
 
-def falls_at(x: float) -> str:
-    """Words for an image that falls."""
+def _negative(d: Array, a: Array, i: int) -> str:
+    return f"the contact radius is {a[i]:.6g} m {_place(i, d, a)}, where it must be positive"
+
+
+def _shrinks(d: Array, a: Array, i: int) -> str:
+    return f"the contact radius falls at d = {d[i]:.6g} m, so that the contact would shrink there"
+
+
+def _falls(d: Array, a: Array, i: int) -> str:
     return (
-        f"annular contact: its one-dimensional profile g falls at x = {x:.6g} m, so that a ring touches before the "
+        f"annular contact: its one-dimensional profile g falls at x = {a[i]:.6g} m, so that a ring touches before the "
         "disc inside it; the method needs a full disc: choose a shape whose g(x) rises"
     )
 
 
-def bends_down(f: Array, r: Array, most: int = 48) -> Array:
-    """Radii, of r (n,), at which r f' falls most: where it rises g does, as dg/dx = ∫₀^{π/2} (r f')' dt."""
+def _not_the_force(d: Array, a: Array, V: Array, spare: float) -> str:
+    """What is wrong with forces over E*, by more than is spare."""
+    rise, least, most = np.diff(V), 2 * a[:-1] * np.diff(d), 2 * a[1:] * np.diff(d)
+    wrong = (rise < least - spare) | (rise > most + spare)
+    if not wrong.any():
+        return ""
+    i = int(np.argmax(wrong))
+    return (
+        f"F_N/E* rises by {rise[i]:.6g} m² between d = {d[i]:.6g} and {d[i + 1]:.6g} m, where 2 a, by which it must "
+        f"rise per depth, is {2 * a[i]:.6g} to {2 * a[i + 1]:.6g} m"
+    )
+
+
+def bends_down(f: Array, r: Array, most: int = 4) -> Array:
+    """Radii, of r (n,), behind where r f' falls most: where it rises g does, as dg/dx = ∫₀^{π/2} (r f')' dt."""
     turn = np.diff((r[1:] + r[:-1]) / 2 * np.diff(f))
     deepest = np.argsort(turn)[:most]
-    return np.asarray(r[1:-1][deepest[turn[deepest] < -SAME * np.max(np.abs(turn))]])
+    deepest = deepest[turn[deepest] < -SAME * np.max(np.abs(turn))]
+    return np.unique(r[np.minimum(deepest[:, None] + np.arange(1, 5), r.size - 1)])
+
+
+def real(name: str, own: Method) -> Method:
+    """A profile of a user's class, which must answer as many real numbers as it is asked for."""
+
+    @wraps(own)
+    def answered(self: Any, r: Array) -> Array:
+        answer = np.asarray(own(self, r))
+        if answer.dtype.kind not in "iufb" or answer.shape not in ((), np.shape(r)):
+            raise TypeError(
+                f"{name} of {type(self).__name__} must answer an array of radii with as many real heights, got "
+                f"{answer!r}"
+            )
+        return np.broadcast_to(answer.astype(np.float64, copy=False), np.shape(r))
+
+    return answered
+
+
+def held(own: Method, expected: Method) -> Method:
+    """A method of a user's class, held to what follows from g whenever it is asked."""
+    name = expected.__name__
+
+    @wraps(own)
+    def answered(self: Any, d: ArrayLike, *given: Any, **named: Any) -> Array:
+        answer = own(self, d, *given, **named)
+        with np.errstate(all="ignore"):
+            if name == "contact_radius":
+                self._refuse_other_radii(finite_array("d", d, "m"), np.asarray(answer, dtype=float))
+                return answer
+            follows = expected(self, d, *given, **named)
+            off = np.abs(np.asarray(answer) - follows)
+            if not np.all(off <= AGREE * np.max(np.abs(follows), initial=0.0)):
+                i = np.unravel_index(np.argmax(np.nan_to_num(off, nan=np.inf)), np.shape(off))
+                raise ValueError(
+                    f"{name} of {type(self).__name__} answers {np.asarray(answer)[i]:.6g} where its g(x) makes it "
+                    f"{np.asarray(follows)[i]:.6g}, at d = {np.broadcast_to(d, np.shape(off))[i]:.6g} m: correct it, "
+                    "or leave it out"
+                )
+        return answer
+
+    return answered
 
 
 def noise_of(x: Array, y: Array) -> float:
@@ -68,11 +128,14 @@ def noise_of(x: Array, y: Array) -> float:
     return float(np.median(np.abs(off) / np.sqrt(1 + share**2 + (1 - share) ** 2)) / 0.6745)
 
 
-def told_smoothing(passes: Callable[[float], bool], least: float, noise: float, most: float, unit: str) -> str:
-    """What to say of a smoothing above ``least``: the first of some that passes, or that none does."""
-    last = least
-    for smoothing in max(1.2 * least, 0.5 * noise) * 1.5 ** np.arange(12):
-        if not 0 < smoothing < most:
+FEW = 300  #: points through which a spline that follows the noise is found at once; its time goes as their square
+
+
+def told_smoothing(passes: Callable[[float], bool], least: float, x: Array, y: Array, unit: str) -> str:
+    """What to say of a smoothing above ``least`` of points (x, y): the first of some that passes, or that none does."""
+    noise, last = noise_of(x, y), least
+    for smoothing in max(1.2 * least, (0.5 if x.size < FEW else 1.1) * noise) * 1.5 ** np.arange(12):
+        if not 0 < smoothing < 0.3 * np.ptp(y):
             break
         last = float(f"{smoothing:.2g}")
         if passes(last):
@@ -88,8 +151,3 @@ def told_smoothing(passes: Callable[[float], bool], least: float, noise: float, 
 
 def _place(i: int, d: Array, a: Array) -> str:
     return f"at d = {d[i]:.6g} m" if np.isfinite(d[i]) and d[i] != 0 else f"at x = {a[i]:.6g} m"
-
-
-def _first(wrong: Array) -> int | None:
-    """Number of the first that is true."""
-    return int(np.argmax(wrong)) if wrong.any() else None
