@@ -274,7 +274,7 @@ class ContactElement(Record):
         if us.ndim not in (1, 2) or us.shape[-1] != 3:
             raise FieldError(f"u must have the shape (3,) or (m, 3), x, y and depth z in m, got {us.shape}", "u")
         deepest = float(us[..., 2].max(initial=0.0))
-        if deepest > self.u_z_max * (1 + SAME):
+        if not deepest <= self.u_z_max * (1 + SAME):
             raise FieldError(f"u_z = {deepest:.6g} m is deeper than u_z_max = {self.u_z_max:.6g} m: raise u_z_max", "u")
         return us
 

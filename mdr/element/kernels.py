@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import Law
-from mdr.spring.step import Path, new_tools, press, row, tools_of
+from mdr.spring.step import Path, glassy, new_tools, press, row, tools_of
 from mdr.spring.turning import row_turning
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.jit import compiled, inner
@@ -26,7 +26,7 @@ NOT_FINITE, OF_ANOTHER, IMPOSSIBLE, BEYOND = 1, 2, 3, 4  #: faults of a state, a
 LEAST, MOST = 1e-9, 1e-7  #: by which a position is moved for a tangent, in scaled form
 SHARE = 1e-3  #: of the motion in a step, between these
 EVEN = 3e-7  #: of the stiffness of the contact, by which the rate of the force of a spring may change on such a way
-NEARER = 2  #: times, each to a tenth, to tell the end of the step from an event near it
+NEARER, FARTHER = 2, 4  #: looks, each at a tenth, to tell the end of the step from an event near it; and beyond one
 MOST_TRIALS = 100  #: of a depth under a load
 WIDER = 1e-7  #: first way to where something touches, of ways that double
 BALANCED = 1e-13  #: share of the greatest load to which a load is met
@@ -196,11 +196,12 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
     """Fill K[:, j] with the derivatives of the scaled forces by the way along the axis j, from the side of d.
 
     Each spring is asked for itself. One that does not go on evenly is asked again nearer by; if it never does, it
-    switches here, and the derivative beyond counts.
+    switches here, and the derivative beyond counts: the first that a spring can have, as steps with arms may jump there
+    by their error.
     """
     looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room)
     K[:, j] = 0.0
-    even = EVEN * abs(d) * (1.0 + T / tools.h)
+    even, stiffest = EVEN * abs(d) * (1.0 + T / tools.h), glassy(arms) + T / tools.h
     for i in range(contact.gap.size):
         w, done, near = contact.w[i], contact.w[i] * bends(room.F, i) <= even, d
         if done:
@@ -210,14 +211,15 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
         one = SpringRow(contact.gap[i : i + 1], contact.w[i : i + 1], contact.law, *contact[3:])
         own_s, own_e = s[:, i : i + 1].copy(), e[:, i : i + 1].copy()
         alone.F[0, :, 0] = room.F[0, :, i]
-        for _ in range(NEARER):
-            near *= 0.1
+        for look in range(NEARER + FARTHER):
+            near = d * 0.1 ** (look + 1) if look < NEARER else d * 10.0 ** (look - NEARER)
             looks_ahead(own_s, own_e, z_0, way, j, near, one, T, modes, arms, tools, alone)
-            done = w * bends(alone.F, 0) <= even * abs(near / d)
-            if done:
+            if look < NEARER:
+                done = w * bends(alone.F, 0) <= even * abs(near / d)
+            if done or (look >= NEARER and np.abs(alone.F[2] - alone.F[1]).max() <= stiffest * abs(near)):
                 break
         for k in range(3):
-            K[k, j] += w * (slope(alone.F, k, 0, near) if done else (room.F[2, k, i] - room.F[1, k, i]) / d)
+            K[k, j] += w * (slope(alone.F, k, 0, near) if done else (alone.F[2, k, 0] - alone.F[1, k, 0]) / near)
 
 
 @_jit
