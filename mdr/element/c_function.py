@@ -35,7 +35,7 @@ def numbers(address, shape):
     return carray(pointer(address), shape, np.float64)  # type: ignore[call-arg]
 
 
-def c_function(row: SpringRow, n_state: int, u_z_max: float) -> Any:
+def c_function(row: SpringRow, n_state: int, u_z_max: float, mark: float) -> Any:
     """numba's cfunc of a step of these springs; the arrays of the row are used where they lie."""
     T, modes, arms = row.law
     n, units, deepest = row.gap.size, row[3:], u_z_max * (1 + SAME)
@@ -48,9 +48,9 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float) -> Any:
     @cfunc(int32(intp, intp, float64, intp, intp, intp))
     def step(state, new_state, dt, u, F, tangent):
         before, to = numbers(state, (1, n_state)), numbers(u, (1, 3))
-        if not (np.isfinite(before).all() and np.isfinite(to).all() and np.isfinite(dt) and to[0, 2] <= deepest):
+        if not (np.isfinite(to).all() and np.isfinite(dt) and to[0, 2] <= deepest):
             return REFUSED
-        if dt < 0.0 or (viscous and dt == 0.0):
+        if not (dt > 0.0 if viscous else dt >= 0.0):
             return REFUSED
         held = arms_of = None
         if of_modes is not None:
@@ -60,8 +60,7 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float) -> Any:
         springs = SpringRow(numbers(gap, n), numbers(w, n), Law(T, held, arms_of), *units)
         after, force = before.copy(), np.empty((1, 3))
         stiff = np.empty((1 if tangent != 0 else 0, 3, 3))
-        steps(after, to.copy(), dt if viscous else 1.0, springs, force, stiff)
-        if not (np.isfinite(force).all() and np.isfinite(after).all() and np.isfinite(stiff).all()):
+        if steps(after, to.copy(), dt if viscous else 1.0, springs, mark, force, stiff) != 0:
             return REFUSED
         numbers(new_state, (1, n_state))[:] = after
         numbers(F, (1, 3))[:] = force

@@ -33,6 +33,8 @@ OF_DASHPOT = {
     "OR_OUT": (" || size > tol", ""),
     "E_AFTER": ("contact_plus(contact_times(R + CONTACT_T * slip.vel, slip.n), -CONTACT_T, p)", "*f"),
     "DECAY": ("time.decay", "0.0"),
+    "STIFF": ("(1.0 + CONTACT_T / time->t)", "1.0"),
+    "WITHIN": ("", ";\n   the extension is within the compression, as is the force"),
 }
 
 
@@ -50,6 +52,7 @@ def header(element: ContactElement, name: str, told: str) -> str:
         "HALF": f"{0.5 * element.u_z_max:.6g}",
         "N": str(row.gap.size),
         "U_Z_MAX": numbers(element.u_z_max),
+        "MARK": numbers(element._mark),
         "T": numbers(law.T),
         "UNITS": numbers([row.length_x, row.length_x, row.length_z]),
         "FORCES": numbers([row.force_x, row.force_x, row.force_z]),

@@ -10,9 +10,9 @@ is known from the state. The difference is what friction and material have turne
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from hashlib import sha256
 from typing import Any, cast
 
 import numpy as np
@@ -21,17 +21,24 @@ from numpy.typing import ArrayLike
 from mdr.case.contact import SlidingContact
 from mdr.case.motion import NormalOscillation
 from mdr.element.c_function import c_function
-from mdr.element.kernels import N_HEAD, SpringRow, steps
+from mdr.element.kernels import BEYOND, IMPOSSIBLE, N_HEAD, NOT_FINITE, OF_ANOTHER, SpringRow, fault, steps
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.normal.spring_grid import nodes
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, count, finite_array, not_negative, positive
+from mdr.tools.checks import FieldError, count, finite_array, not_negative, positive, real_array
 from mdr.tools.fields import Record, check_fields, facts
 
 NO_TANGENT = np.empty((0, 3, 3))
+TAKE = "take that of its at_rest() or step()"
+FAULTS = {
+    NOT_FINITE: f"state must be finite, got NaN or infinity: {TAKE}",
+    OF_ANOTHER: f"state must be of this element, got the mark of another as its last number: {TAKE}",
+    IMPOSSIBLE: "state must be possible, got a compression that the depth or u_z_max forbids, or an extension that "
+    f"friction does not bear: {TAKE}",
+}
 
 
 def _springs(name: str, value: Any, note: str = "") -> int:
@@ -45,7 +52,8 @@ class ContactElement(Record):
     Keep the new state only when your step is accepted: a step changes nothing but what it returns.
 
     A state is one array: the last position u [m], the work done on the contact so far [J], then compressions s of the
-    springs over u_z_max, extensions e_x and e_y over mu_0 kappa u_z_max, each with its Maxwell arms; see `state_names`.
+    springs over u_z_max, extensions e_x and e_y over mu_0 kappa u_z_max, each with its Maxwell arms, and a mark of the
+    element; see `state_names`.
 
     Examples
     --------
@@ -69,17 +77,19 @@ class ContactElement(Record):
         check_fields(self)
         at = springs_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
         object.__setattr__(self, "_contact", at)
+        object.__setattr__(self, "_of_springs", mark_of(at))
 
     @property
     def n_state(self) -> int:
         """Numbers of a state."""
-        return N_HEAD + 3 * self._rows * self._row.gap.size
+        return N_HEAD + 3 * self._rows * self._row.gap.size + 1
 
     @property
     def state_names(self) -> tuple[str, ...]:
         """A name for each number of a state, such as "u_x" and "e_x[17]"; of an arm "e_x_1[17]"."""
         rows = [f"{name}_{j}" if j else name for name in ("s", "e_x", "e_y") for j in range(self._rows)]
-        return "u_x", "u_y", "u_z", "work", *(f"{name}[{i}]" for name in rows for i in range(self._row.gap.size))
+        springs = (f"{name}[{i}]" for name in rows for i in range(self._row.gap.size))
+        return "u_x", "u_y", "u_z", "work", *springs, "element"
 
     @property
     def address(self) -> int:
@@ -116,7 +126,7 @@ class ContactElement(Record):
         state[..., :3] = u
         n = self._row.gap.size
         state[..., N_HEAD : N_HEAD + n] = np.maximum(u[..., 2:] / self._row.length_z - self._row.gap, 0)
-        state[..., 3] = self.stored(state)
+        state[..., 3], state[..., -1] = stored(self._row, state[..., N_HEAD:-1]), self._mark
         return state
 
     def step(self, state: ArrayLike, dt: float, u: ArrayLike, tangent: bool = False) -> tuple[Array, ...]:
@@ -145,7 +155,8 @@ class ContactElement(Record):
             The state at the end of the step.
         K : ndarray, shape (3, 3) or (m, 3, 3)
             With `tangent` alone: K[i, j] = dF_i/du_j [N/m] at fixed state and dt. Not symmetric, as slip follows the
-            depth. Where springs switch, the derivative on the side of the motion.
+            depth. Where a spring switches (touches, leaves, sticks, slips), the derivative beyond, on the side of the
+            motion; of an axis without motion on that of the friction.
 
         Raises
         ------
@@ -155,7 +166,12 @@ class ContactElement(Record):
 
         Notes
         -----
-        K is a one-sided difference of second order of the step itself, its error some 1e-9 of the stiffness.
+        K is a one-sided difference of second order of the step itself, of each spring for itself and so near that it
+        does not switch: its error is some 1e-8 of the stiffness. What a spring does within 2e-9 of u_z_max, or of
+        mu_0 kappa u_z_max in the plane, counts as here; nearer still after a way below 1e-4 of these.
+
+        A state is refused that is not finite, of another element (its last number is a mark of the springs), or
+        impossible: compressions that the depth or u_z_max forbids, extensions that an elastic contact cannot bear.
         """
         states, us = self._states(state), self._positions(u)
         if us.shape[:-1] != states.shape[:-1]:
@@ -167,11 +183,11 @@ class ContactElement(Record):
             raise TypeError(f"tangent must be True or False, got {tangent!r}")
         answer, flat = np.array(states, order="C"), np.array(us, order="C").reshape(-1, 3)
         F, K = np.empty(flat.shape), np.empty((len(flat), 3, 3)) if tangent else NO_TANGENT
-        steps(answer.reshape(-1, self.n_state), flat, h, self._row, F, K)
-        if not (math.isfinite(F.sum() + answer[..., 3].sum()) and (K is NO_TANGENT or math.isfinite(K.sum()))):
-            raise ValueError(
-                f"force or work is beyond the range of floats: dt = {dt:g} s is too short, or u too far away"
-            )
+        if wrong := steps(answer.reshape(-1, self.n_state), flat, h, self._row, self._mark, F, K):
+            if wrong == BEYOND:
+                what = "force, work or springs are beyond the range of floats"
+                raise ValueError(f"{what}: dt = {dt:g} s is too short, or u too far away")
+            raise FieldError(FAULTS[wrong], "state")
         return (F.reshape(us.shape), answer, K.reshape(*us.shape, 3)) if tangent else (F.reshape(us.shape), answer)
 
     def stored(self, state: ArrayLike) -> Array:
@@ -192,7 +208,7 @@ class ContactElement(Record):
         TypeError, ValueError
             For the state of another element.
         """
-        return stored(self._row, self._states(state)[..., N_HEAD:])
+        return stored(self._row, self._checked(state)[..., N_HEAD:-1])
 
     def dissipated(self, state: ArrayLike) -> Array:
         """Energy [J] that friction and material have turned into heat since the contact was at rest.
@@ -212,11 +228,11 @@ class ContactElement(Record):
         TypeError, ValueError
             For the state of another element.
         """
-        return np.asarray(self._states(state)[..., 3] - self.stored(state))
+        return np.asarray(self._checked(state)[..., 3] - self.stored(state))
 
     @cached_property
     def _c_function(self) -> Any:
-        return c_function(self._row, self.n_state, self.u_z_max)
+        return c_function(self._row, self.n_state, self.u_z_max, self._mark)
 
     def __getstate__(self) -> dict[str, Any]:  # compiled code has an address in one process alone
         return {name: value for name, value in vars(self).items() if name != "_c_function"}
@@ -224,6 +240,10 @@ class ContactElement(Record):
     @property
     def _row(self) -> SpringRow:
         return cast(SpringRow, vars(self)["_contact"])
+
+    @property
+    def _mark(self) -> float:
+        return cast(float, vars(self)["_of_springs"])
 
     @property
     def _rows(self) -> int:
@@ -235,10 +255,18 @@ class ContactElement(Record):
         return self._row.law.modes is not None
 
     def _states(self, state: ArrayLike) -> Array:
-        states = finite_array("state", state)
+        states = real_array("state", state)
         if states.ndim not in (1, 2) or states.shape[-1] != self.n_state:
             what = f"state must have the shape ({self.n_state},) or (m, {self.n_state}) of this element"
-            raise FieldError(f"{what}, got {states.shape}: take that of its at_rest() or step()", "state")
+            raise FieldError(f"{what}, got {states.shape}: {TAKE}", "state")
+        return states
+
+    def _checked(self, state: ArrayLike) -> Array:
+        """States of which each is one of these springs."""
+        states = self._states(state)
+        for one in states.reshape(-1, self.n_state):
+            if wrong := fault(np.ascontiguousarray(one), self._row, self._mark):
+                raise FieldError(FAULTS[wrong], "state")
         return states
 
     def _positions(self, u: ArrayLike) -> Array:
@@ -246,7 +274,7 @@ class ContactElement(Record):
         if us.ndim not in (1, 2) or us.shape[-1] != 3:
             raise FieldError(f"u must have the shape (3,) or (m, 3), x, y and depth z in m, got {us.shape}", "u")
         deepest = float(us[..., 2].max(initial=0.0))
-        if deepest > self.u_z_max * (1 + SAME):
+        if not deepest <= self.u_z_max * (1 + SAME):
             raise FieldError(f"u_z = {deepest:.6g} m is deeper than u_z_max = {self.u_z_max:.6g} m: raise u_z_max", "u")
         return us
 
@@ -265,6 +293,13 @@ def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: flo
     return SpringRow(
         gap, w, law, length_x, deepest, material.G_star * total * length_x, material.E_star * total * deepest
     )
+
+
+def mark_of(row: SpringRow) -> float:
+    """A whole number for these springs, by which their states are known: to 24 bits, those that processors agree on."""
+    numbers = np.concatenate([np.ravel(one) for one in (*row[:2], row.law.T, *(row.law.arms or ()), *row[3:])])
+    parts, powers = np.frexp(numbers)
+    return float(int(sha256(np.stack([np.rint(2**24 * parts), powers]).astype("<i8").tobytes()).hexdigest()[:12], 16))
 
 
 def stored(row: SpringRow, springs: Array) -> Array:

@@ -13,18 +13,22 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import Law
-from mdr.spring.step import Path, new_tools, press, row, tools_of
+from mdr.spring.step import Path, glassy, new_tools, press, row, tools_of
 from mdr.spring.turning import row_turning
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.jit import compiled, inner
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 _inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
 
-N_HEAD = 4  #: numbers of a state before its springs: the last u, and the work
-LEAST, MOST = 1e-7, 1e-5  #: by which a position is moved for a tangent, in scaled form
+N_HEAD = 4  #: numbers of a state before its springs: the last u, and the work; behind them is the mark of its element
+NOT_FINITE, OF_ANOTHER, IMPOSSIBLE, BEYOND = 1, 2, 3, 4  #: faults of a state, and of what comes out of a step
+LEAST, MOST = 1e-9, 1e-7  #: by which a position is moved for a tangent, in scaled form
 SHARE = 1e-3  #: of the motion in a step, between these
+EVEN = 3e-7  #: of the stiffness of the contact, by which the rate of the force of a spring may change on such a way
+NEARER, FARTHER = 2, 4  #: looks, each at a tenth, to tell the end of the step from an event near it; and beyond one
 MOST_TRIALS = 100  #: of a depth under a load
+WIDER = 1e-7  #: first way to where something touches, of ways that double
 BALANCED = 1e-13  #: share of the greatest load to which a load is met
 SOON = 1e-6  #: of an interval, after which the force is looked at that a dashpot has at its start
 
@@ -71,13 +75,13 @@ def carried(s, w, since, rate, T, arms):
 
 
 @_inline
-def straight(s, e, u, v, across, contact, T, modes, arms, tools, trial, since):
-    """The springs s, e after a straight line from the scaled position u to v (3,); trial, since: room to work in.
+def straight(s, e, z_0, way, across, contact, T, modes, arms, tools, trial, since):
+    """The springs s, e after a straight way (3,), scaled, from the depth z_0; trial, since: room to work in.
 
     across: None for springs e (1 + J, n) that move along x alone.
     """
     h = tools.h
-    path = Path(u[2], (v[2] - u[2]) / h, 0.0, (v[0] - u[0]) / h, 0.0)
+    path = Path(z_0, way[2] / h, 0.0, way[0] / h, 0.0)
     trial[:] = s
     area_z, _ = press(trial, contact.gap, contact.w, path, T, modes, arms, tools, since)
     if across is None:
@@ -85,51 +89,183 @@ def straight(s, e, u, v, across, contact, T, modes, arms, tools, trial, since):
         area, _, _, _, end, _, _ = row(s, e, contact.gap, contact.w, path, T, modes, arms, tools, z_1, x_1, None)
         ends, areas = (end, 0.0), (area, 0.0)
     else:
-        of = row_turning(s, e, contact.gap, contact.w, path, (v[1] - u[1]) / h, 0.0, T, modes, arms, tools, None)
+        of = row_turning(s, e, contact.gap, contact.w, path, way[1] / h, 0.0, T, modes, arms, tools, None)
         ends, areas = (of.end_x, of.end_y), (of.area_x, of.area_y)
     F_z, _ = carried(s, contact.w, since, path.z_1, T, arms)
     return Straight(ends[0], ends[1], F_z, areas[0], areas[1], area_z)
 
 
+class Room(NamedTuple):
+    """Room to work in, for n springs of 1 + J parts."""
+
+    s: Array  #: (1 + J, n)
+    e: Array  #: (2 (1 + J), n)
+    trial: Array  #: (1 + J, n)
+    since: Array  #: (n,)
+    F: Array  #: (3, 3, n) forces at the end of three steps, over the stiffness of each spring
+
+
+@_inline
+def room_for(parts, n):
+    """Room for n springs."""
+    return Room(np.empty((parts, n)), np.empty((2 * parts, n)), np.empty((parts, n)), np.empty(n), np.empty((3, 3, n)))
+
+
+@_inline
+def parts_of(n_state, n):
+    """Compression or extension, and arms, of one of n springs in a state of so many numbers."""
+    return (n_state - N_HEAD - 1) // (3 * n)
+
+
 @_jit
-def steps(states, us, h, contact, forces, tangents):
+def fault(state, contact, mark):
+    """What is wrong with a state (n_state,) of these springs, a number; zero for nothing.
+
+    A spring in contact is as short as the gap left to it, one that flies is shorter, and none was ever shorter than at
+    the greatest depth. Without a memory of the material the extension is within the compression, as is the force.
+    """
+    n, rounding = contact.gap.size, 2 * SAME
+    parts = parts_of(state.size, n)
+    for one in state:
+        if not np.isfinite(one):
+            return NOT_FINITE
+    if state[-1] != mark:
+        return OF_ANOTHER
+    depth, fits = state[2] / contact.length_z, True
+    for i in range(n):
+        s, x, y = state[N_HEAD + i], state[N_HEAD + parts * n + i], state[N_HEAD + 2 * parts * n + i]
+        most = 1.0 - contact.gap[i] + rounding
+        fits &= (s >= max(depth - contact.gap[i], 0.0) - rounding) & (s <= most)
+        if parts == 1 and contact.law.T == 0.0:
+            fits &= x * x + y * y <= (s + rounding) ** 2
+    return 0 if fits else IMPOSSIBLE
+
+
+@_inline
+def forces(room, way, h, T, arms, F):
+    """Fill F (3, n) with the forces of the springs at the end of a way of the time h, over their stiffness: of what L
+    makes of their extension that part which friction bears.
+    """
+    J, t = room.s.shape[0], T / h
+    for i in range(room.since.size):
+        x, y, z = room.e[0, i] + t * way[0], room.e[J, i] + t * way[1], room.s[0, i] + t * way[2]
+        if arms is not None:
+            for j in range(arms.rho.size):
+                x += arms.rho[j] * room.e[1 + j, i]
+                y += arms.rho[j] * room.e[J + 1 + j, i]
+                z += arms.rho[j] * room.s[1 + j, i]
+        limit, size = z if room.since[i] > 0.0 and z > 0.0 else 0.0, np.sqrt(x * x + y * y)
+        part = limit / size if size > limit else 1.0
+        F[0, i], F[1, i], F[2, i] = part * x, part * y, limit
+
+
+@_inline
+def moved(s, e, z_0, way, contact, T, modes, arms, tools, room):
+    """The springs s, e, which are left as they are, after a straight way (3,) from the depth z_0, in the room."""
+    room.s[:], room.e[:] = s, e
+    return straight(room.s, room.e, z_0, way, way, contact, T, modes, arms, tools, room.trial, room.since)
+
+
+@_inline
+def looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room):
+    """Forces after a way, which stand in room.F[0], and after ways that are d and 2 d longer along the axis j."""
+    there = way.copy()
+    for k in range(1, 3):
+        there[j] = way[j] + k * d
+        moved(s, e, z_0, there, contact, T, modes, arms, tools, room)
+        forces(room, there, tools.h, T, arms, room.F[k])
+
+
+@_inline
+def bends(F, i):
+    """By how much the force of spring i changes more from the second to the third look than before."""
+    most = 0.0
+    for k in range(3):
+        most = max(most, abs(F[2, k, i] - 2.0 * F[1, k, i] + F[0, k, i]))
+    return most
+
+
+@_inline
+def slope(F, k, i, d):
+    """Derivative of force k of spring i at the first of three looks, of second order."""
+    return (4.0 * F[1, k, i] - F[2, k, i] - 3.0 * F[0, k, i]) / (2.0 * d)
+
+
+@_inline
+def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
+    """Fill K[:, j] with the derivatives of the scaled forces by the way along the axis j, from the side of d.
+
+    Each spring is asked for itself. One that does not go on evenly is asked again nearer by; if it never does, it
+    switches here, and the derivative beyond counts: the first that a spring can have, as steps with arms may jump there
+    by their error.
+    """
+    looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room)
+    K[:, j] = 0.0
+    even, stiffest = EVEN * abs(d) * (1.0 + T / tools.h), glassy(arms) + T / tools.h
+    for i in range(contact.gap.size):
+        w, done, near = contact.w[i], contact.w[i] * bends(room.F, i) <= even, d
+        if done:
+            for k in range(3):
+                K[k, j] += w * slope(room.F, k, i, d)
+            continue
+        one = SpringRow(contact.gap[i : i + 1], contact.w[i : i + 1], contact.law, *contact[3:])
+        own_s, own_e = s[:, i : i + 1].copy(), e[:, i : i + 1].copy()
+        alone.F[0, :, 0] = room.F[0, :, i]
+        for look in range(NEARER + FARTHER):
+            near = d * 0.1 ** (look + 1) if look < NEARER else d * 10.0 ** (look - NEARER)
+            looks_ahead(own_s, own_e, z_0, way, j, near, one, T, modes, arms, tools, alone)
+            if look < NEARER:
+                done = w * bends(alone.F, 0) <= even * abs(near / d)
+            if done or (look >= NEARER and np.abs(alone.F[2] - alone.F[1]).max() <= stiffest * abs(near)):
+                break
+        for k in range(3):
+            K[k, j] += w * (slope(alone.F, k, 0, near) if done else (alone.F[2, k, 0] - alone.F[1, k, 0]) / near)
+
+
+@_jit
+def steps(states, us, h, contact, mark, pull, tangents):
     """A step of length h of m contacts that stand alike: states (m, n_state), changed, to positions us (m, 3) [m].
 
-    forces (m, 3) [N] is filled, and tangents (m, 3, 3) [N/m] too if it is not empty.
+    pull (m, 3) [N] is filled, and tangents (m, 3, 3) [N/m] too if it is not empty. Answers 0, or what is wrong with a
+    state or with what comes out,.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
     tools, unit = new_tools(h, modes, arms), np.array([contact.length_x, contact.length_x, contact.length_z])
     force = np.array([contact.force_x, contact.force_x, contact.force_z])
-    parts = (states.shape[1] - N_HEAD) // (3 * n)
-    trial, since, before = np.empty((parts, n)), np.empty(n), np.empty(states.shape[1] - N_HEAD)
-    ahead, near = np.empty(before.size), np.empty((2, 3))
+    parts = parts_of(states.shape[1], n)
+    room, alone, K = room_for(parts, n), room_for(parts, 1), np.empty((3, 3))
     for b in range(us.shape[0]):
-        springs = states[b, N_HEAD:]
-        u, v = states[b, :3] / unit, us[b] / unit
-        if tangents.size > 0:
-            before[:] = springs
+        wrong = fault(states[b], contact, mark)
+        if wrong != 0:
+            return wrong
+        springs = states[b, N_HEAD:-1]
         s, e = springs[: parts * n].reshape(parts, n), springs[parts * n :].reshape(2 * parts, n)
-        of = straight(s, e, u, v, unit, contact, T, modes, arms, tools, trial, since)
+        z_0, way = states[b, 2] / unit[2], us[b] / unit - states[b, :3] / unit
+        of = moved(s, e, z_0, way, contact, T, modes, arms, tools, room)
         now = np.array([of.F_x, of.F_y, of.F_z])
-        forces[b], moved = force * now, (us[b] - states[b, :3]) / h
-        area = np.array([of.area_x, of.area_y, of.area_z])
-        states[b, 3] += (moved * force * area).sum()
-        states[b, :3] = us[b]
+        new_s, new_e = room.s.copy(), room.e.copy()
         if tangents.size > 0:
-            d = min(max(SHARE * np.abs(v - u).max(), LEAST), MOST)
+            forces(room, way, h, T, arms, room.F[0])
+            far = np.abs(way).max()
+            d = MOST * max(far, 1.0)
+            if far > 0.0:  # at rest springs switch at no distance, or at a finite one
+                d = min(d, max(SHARE * far, LEAST))
             for j in range(3):
-                side = v[j] - u[j]
+                side = way[j]
                 if side == 0.0 and j < 2:  # it goes on the way of the friction
                     side = now[j]
-                side = -d if side < 0.0 else d
-                for k in range(2):
-                    ahead[:] = before
-                    s, e = ahead[: parts * n].reshape(parts, n), ahead[parts * n :].reshape(2 * parts, n)
-                    v[j] = us[b, j] / unit[j] + (k + 1) * side
-                    of = straight(s, e, u, v, unit, contact, T, modes, arms, tools, trial, since)
-                    near[k, 0], near[k, 1], near[k, 2] = of.F_x, of.F_y, of.F_z
-                v[j] = us[b, j] / unit[j]
-                tangents[b, :, j] = force * (4.0 * near[0] - near[1] - 3.0 * now) / (2.0 * side * unit[j])
+                d_j = -d if side < 0.0 else d
+                rates(K, j, d_j, s, e, z_0, way, contact, T, modes, arms, tools, room, alone)
+                tangents[b, :, j] = force * K[:, j] / unit[j]
+        area = np.array([of.area_x, of.area_y, of.area_z])
+        pull[b], velocity = force * now, (us[b] - states[b, :3]) / h
+        states[b, 3] += (velocity * force * area).sum()
+        states[b, :3], s[:], e[:] = us[b], new_s, new_e
+        if not (np.isfinite(states[b]).all() and np.isfinite(pull[b]).all()):
+            return BEYOND
+        if tangents.size > 0 and not np.isfinite(tangents[b]).all():
+            return BEYOND
+    return 0
 
 
 @_inline
@@ -138,7 +274,7 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial,
 
     Begins at z + ahead. scale: of loads. With a dashpot the force jumps where a spring touches, maybe over the load.
     """
-    h, low, high, x, wider = tools.h, -np.inf, np.inf, z + ahead, LEAST
+    h, low, high, x, wider = tools.h, -np.inf, np.inf, z + ahead, WIDER
     for _ in range(MOST_TRIALS):
         trial[:] = s
         rate = (x - z) / h
@@ -174,7 +310,7 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
     """
     T, modes, arms = contact.law
     tools, viscous = new_tools(1.0, modes, arms), modes is not None
-    trial, since, v = np.empty_like(s), np.empty(s.shape[1]), np.empty(3)
+    trial, since, v, way = np.empty_like(s), np.empty(s.shape[1]), u.copy(), np.empty(3)
     scale, rate = load.max() if load.size > 0 else 1.0, 0.0
     s_near, e_near = np.empty_like(s), np.empty_like(e)
     for k in range(start + 1, stop + 1):
@@ -188,7 +324,8 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
             soon = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools)
             if y is not None:
                 v[1] = u[1] + SOON * (y[k] - y[k - 1])
-            of = straight(s_near, e_near, u, v, y, contact, T, modes, arms, soon, trial, since)
+            way[:] = v - u
+            of = straight(s_near, e_near, u[2], way, y, contact, T, modes, arms, soon, trial, since)
             out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.F_x)
             out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.F_y)
             out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.F_z)
@@ -205,8 +342,9 @@ def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
                 rate = (v[2] - u[2]) / h
             else:
                 v[2] = depth[k - 1] + share * (depth[k] - depth[k - 1])
-            of = straight(s, e, u, v, y, contact, T, modes, arms, tools, trial, since)
-            u[0], u[1], u[2] = v[0], v[1], v[2]
+            way[:] = v - u
+            of = straight(s, e, u[2], way, y, contact, T, modes, arms, tools, trial, since)
+            u[:] = v
             out[k, 0], out[k, 1], out[k, 2] = of.F_x, of.F_y, of.F_z
             out[k, 3] += dt / h * of.area_x
             out[k, 4] += dt / h * of.area_y

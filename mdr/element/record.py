@@ -63,7 +63,7 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
     F_x: Array  #: (n_t,) tangential force, against the motion of the indenter [N]
     F_y: Array  #: (n_t,) [N]
     F_z: Array  #: (n_t,) normal force [N]
-    running_cof: Array  #: (n_t,) mean F_x over mean F_z up to each sample [-]; NaN before the first contact
+    running_cof: Array  #: (n_t,) mean F_x over mean F_z up to each sample [-]; 0 before the first contact
 
     def _summary(self) -> Summary:
         spent = self.energy_balance
@@ -210,9 +210,8 @@ def slide_record(
     if material.tau > 0 and not exact:  # the errors of steps at a dashpot differ in sign: interval by interval
         off[1] = float(np.abs(found[2].area - found[0].area)[:, :2].sum(axis=0).max() / best.area[:, 2].sum())
     error = off[0] + sum(STEPS_OFF * one for one in off[1:])
-    with np.errstate(invalid="ignore"):
-        running = np.cumsum(best.area[:, 0]) / np.cumsum(best.area[:, 2])
-    running[0] = best.F[0, 0] / best.F[0, 2] if best.F[0, 2] > 0 else np.nan
+    along, pressed = np.cumsum(best.area[:, 0]), np.cumsum(best.area[:, 2])
+    along[0], pressed[0] = best.F[0, 0], best.F[0, 2]  # of no time: of the forces there
     return SlideRecord(
         cof=float(cof),
         cof_y=float(cof_y),
@@ -228,7 +227,7 @@ def slide_record(
         F_x=best.F[:, 0],
         F_y=best.F[:, 1],
         F_z=best.F[:, 2],
-        running_cof=running,
+        running_cof=np.divide(along, pressed, out=np.zeros(t.size), where=pressed > 0),
     )
 
 
@@ -273,6 +272,10 @@ def _followed(motion: _Motion, row: SpringRow, parts: int, ticker: Ticker) -> _F
         end = min(k + chunk, t.size - 1)
         follow(s, e, u, t, x, y, depth, load, parts, row, out, k, end)
         ticker.tick((end - k) * n * parts)
+    if not all(np.isfinite(one).all() for one in (s, e, out, depth)):
+        raise ValueError(
+            "forces of this record are beyond the range of floats: make its steps in t longer, or u smaller"
+        )
     units = np.array([row.force_x, row.force_x, row.force_z])
     F, area, u_z = out[:, :3] * units, out[:, 3:] * units, motion.depth if motion.load is None else depth * row.length_z
     rates = (np.diff(one) / np.diff(t) for one in (motion.x, 0 * t if motion.y is None else motion.y, u_z))
@@ -286,7 +289,7 @@ def _stored(row: SpringRow, s: Array, e: Array) -> float:
 
 def _static(indenter: Indenter, material: Material, load: Array) -> Array:
     """Depths [m] at which loads would rest."""
-    if np.any(load < 0):
+    if not np.all(load >= 0):
         raise FieldError(f"F_z must not be negative, got {load.min():.6g} N: nothing pulls at the indenter", "F_z")
     if not material.E_star > 0:
         raise FieldError("E_inf = 0: under a load such a half-space flows without end", "material")

@@ -30,7 +30,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "con
 
 GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
-TINY = 1e-300  #: of a leash
+TINY = 1e-100  #: of a leash, and of a velocity; its square, and a way over it, are numbers too
 SHORT = 1.0  #: square of a way over the leash that counts as short
 EVEN = 2.0  #: times the least leash that the greatest may be, for two nodes to tell how far a way turns a spring
 NO_PHI = (1.0, 1.0, 0.5, 0.0, 0.0)  #: in the place of phi where nothing is viscous
@@ -154,11 +154,16 @@ def turned_twice(n, a, b):
 
 
 @_inline
-def turned(n, v_1, v_2, rho_1, rho_2, t, short):
-    """The direction n after a time t, under these ways a time and on these leashes at the two nodes of Gauss's rule."""
+def turned(n, v_1, v_2, rho_1, rho_2, t, short, sure):
+    """The direction n after a time t, under these ways a time and on these leashes at the two nodes of Gauss's rule.
+
+    short: at the ends of the time; sure: at the nodes too, where a leash may have come to nothing.
+    """
     b_1, b_2 = scaled(t / max(rho_1, TINY), v_1), scaled(t / max(rho_2, TINY), v_2)
     a, b = scaled(EARLY, b_1) + scaled(LATE, b_2), scaled(LATE, b_1) + scaled(EARLY, b_2)
-    return turned_twice(n, a, b) if short else turned_straight(turned_straight(n, a), b)
+    if short and (sure or along(b_1, b_1) + along(b_2, b_2) < 4.0 * SHORT):
+        return turned_twice(n, a, b)
+    return turned_straight(turned_straight(n, a), b)
 
 
 @_inline
@@ -179,13 +184,13 @@ def driven(vel, c_0, d_0, c_1, d_1, t, T, phi):
 
 
 @_inline
-def slid(n, vel, t, v, R, T, G, phi, viscous, short):
-    """Direction and velocity of slip after a time t. v, R: cubics. phi: of law.py, of G t/T."""
+def slid(n, vel, t, v, R, T, G, phi, viscous, short, sure):
+    """Direction and velocity of slip after a time t. v, R: cubics. phi: of law.py, of G t/T. short, sure: of turned."""
     early, late = (0.5 - GAUSS) * t, (0.5 + GAUSS) * t
     v_1, v_2, R_1, R_2 = point(v, early), point(v, late), at(R, early), at(R, late)
     v_b, R_dot = point(v, t), slope(R, t)
     if not viscous:
-        n = turned(n, v_1, v_2, R_1, R_2, t, short)
+        n = turned(n, v_1, v_2, R_1, R_2, t, short, sure)
         return n, (along(v_b, n) - R_dot) / G
     v_dot, R_b, bend, per = velocity(v, t), at(R, t), 2.0 * (R.c + 3.0 * t * R.d), t / T
     c_a, d_a = driving(n, vel, v.a, v.b, R.a, R.b, 2.0 * R.c, T, t)
@@ -199,7 +204,7 @@ def slid(n, vel, t, v, R, T, G, phi, viscous, short):
         else:  # as T l' + G l = c has them, however soon l comes to c/G
             mean = (0.5 * (c_a + c_b) + t * (d_a - d_b) / 12.0 - (l_b - vel) / per) / G
             tilt = (0.1 * (c_b - c_a) - t * (d_a + d_b) / 120.0 - (0.5 * (vel + l_b) - mean) / per) / (G * GAUSS)
-        n_b = turned(n, v_1, v_2, R_1 + T * (mean - tilt), R_2 + T * (mean + tilt), t, short)
+        n_b = turned(n, v_1, v_2, R_1 + T * (mean - tilt), R_2 + T * (mean + tilt), t, short, sure)
         c_b, d_b = driving(n_b, l_b, v_b, v_dot, R_b, R_dot, bend, T, t)
         l_b = driven(vel, c_a, d_a, c_b, d_b, t, T, phi)
         r_b = per * (c_b - G * l_b)
@@ -244,7 +249,7 @@ def slides(n, vel, t, v, R, T, G, midway):
         if half == 1 and not short:
             n_1, l_1, v, R = n_m, l_m, since(v, u), since(R, u)
         phi = phi_of(G * u / T) if T > 0.0 else NO_PHI
-        n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short)
+        n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short, False)
         if half == 0:
             n_m, l_m = n_1, l_1
     f_1 = force_and_rates(n_1, l_1, v_1, v_dot, R_1, R_dot, R_bend, T, G)

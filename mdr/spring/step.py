@@ -41,7 +41,7 @@ _call = compiled(error_model="numpy", nogil=True, fastmath=_FAST, **LENT)
 TOUCHES, BEGINS = 4, 5  #: the mode is still to be found: just touched; at the begin of a step
 NEVER = np.inf
 MOST_EVENTS = 100  #: of a spring in one step; what comes after the last would be left out
-ROUNDING = 4e-15  #: of a length
+ROUNDING = 4e-15  #: of a length, and of a time in a step
 MOST_PARABOLAS = 200  #: to a zero; they double their digits once they are near
 
 
@@ -59,8 +59,8 @@ class Tools(NamedTuple):
     """What times make of arms and modes, room to work in, and what one step tells the next."""
 
     h: float  #: length of the step
-    held: Array  #: (4, 9, J) what arms, that are held on p t + q t² for the step, a part, or half of these, come to
-    decay: Array  #: (4, K) exp(-mu_k t) likewise
+    held: Array  #: (2, 9, J) what arms, that are held on p t + q t² for the step or a part, come to
+    decay: Array  #: (2, K) exp(-mu_k t) likewise
     modes: Array  #: (K,)
     work: Array  #: (J + K,)
     more: Array  #: (4, K)
@@ -177,7 +177,7 @@ def new_tools(h, modes, arms):
         J = arms.rho.size
     if modes is not None:
         K = modes.mu.size
-    held, decay, mode, work = np.empty((4, 9, J)), np.empty((4, K)), np.empty(K), np.empty(J + K)
+    held, decay, mode, work = np.empty((2, 9, J)), np.empty((2, K)), np.empty(K), np.empty(J + K)
     tools = Tools(h, held, decay, mode, work, np.empty((4, K)), np.empty((1 + J, 1)))
     fill(h, modes, arms, tools, 0)
     return tools

@@ -256,7 +256,7 @@ def sticks(e_0, e, i, w, top, R, t, k, tol, T, arms, tools, look):
     if not lasts:
         t, k = until, 1
         if arms is not None:
-            fill_halves(t, arms, tools, 1)
+            fill(t, None, arms, tools, 1)
     if look is not None:
         lost = lost_on_parabola(e.x, i, p.real, q.real, t, T, arms)
         look.sums[SHEAR_VISCOUS] += w * (lost + lost_on_parabola(e.y, i, p.imag, q.imag, t, T, arms))
@@ -274,24 +274,24 @@ def sticks(e_0, e, i, w, top, R, t, k, tol, T, arms, tools, look):
 
 
 @_inline
-def remembered(e, i, p, p_fast, q, k, keep, tools, arms):
+def remembered(e, i, p, p_fast, q, t, k, keep, tools, arms):
     """What the arms of spring i, held on p t + q t² for a time t, come to: the sums of rho_j e_j, of rho_j e_j/theta_j,
-    and of the latter at half of the time. Fast arms, of theta_j < h, are held on p_fast t + q t², and their sum changes
-    evenly. keep: whether they are to be what they come to.
+    and the mean of the latter over the time. Fast arms, of theta_j < h, are held on p_fast t + q t², and their sum
+    changes evenly. keep: True stores what they come to.
     """
-    of, half = tools.held[k], tools.held[k + 2]
-    one = two = middle = 0.0j
+    of = tools.held[k]
+    one = two = mean = 0.0j
     for j in range(arms.rho.size):
         before, rate, is_fast = vector(e, 1 + j, i), arms.rate[j], arms.rate[j] * tools.h > 1.0
         first = p_fast if is_fast else p
         after = before * of[0, j] + first * of[1, j] + q * of[2, j]
-        mid = before * half[0, j] + first * half[1, j] + q * half[2, j]
+        area = before * of[3, j] + first * of[4, j] + q * of[5, j]
         if keep:
             put(e, 1 + j, i, after)
         one += arms.rho[j] * after
         two += arms.rho[j] * rate * after
-        middle += arms.rho[j] * rate * (0.5 * (before + after) if is_fast else mid)
-    return one, two, middle
+        mean += rate * (0.5 * arms.rho[j] * (before + after) if is_fast else area * (1.0 / t))
+    return one, two, mean
 
 
 @_inline
@@ -323,9 +323,10 @@ def slip_over(e_0, e, i, top, start, R, t, k, midway, G, T, arms, tools):
         turns = MOST_RETURNS
     for _ in range(turns):
         if arms is not None:
-            _, last, mid = remembered(e, i, way.p, rate_0, way.q, k, False, tools, arms)
-            last, mid = last - start.a, mid - start.a
-            b, c = (4.0 * mid - last) * (1.0 / t), (4.0 * mid - 2.0 * last) * (1.0 / (t * t))
+            # by the parabola of both ends and the mean, as R goes: then what relaxes with the disc does not slip
+            _, last, mean = remembered(e, i, way.p, rate_0, way.q, t, k, False, tools, arms)
+            last, mean = last - start.a, mean - start.a
+            b, c = (6.0 * mean - 2.0 * last) * (1.0 / t), (6.0 * mean - 3.0 * last) * (1.0 / (t * t))
             v = Cubic(start.v, 2.0 * G * top.q - b, c, 0.0j)
         known = back * of.vel
         of = slides(start.n, start.vel, t, v, R, T, G, midway)
@@ -333,7 +334,7 @@ def slip_over(e_0, e, i, top, start, R, t, k, midway, G, T, arms, tools):
             of = Slip(of.n, (of.vel - known) / (1.0 - back), of.area, of.moment, of.l_m)
         q = (rate_1 - of.vel * of.n - rate_0) * (0.5 / t)
         if arms is not None:
-            others, _, _ = remembered(e, i, -t * q, rate_0, q, k, False, tools, arms)
+            others, _, _ = remembered(e, i, -t * q, rate_0, q, t, k, False, tools, arms)
         end = (max(at(R, t), 0.0) + T * of.vel) * of.n - T * rate_1
         way = Way((end - e_0 - others) * (1.0 / per) - t * q, q)
     return of, way
@@ -355,14 +356,14 @@ def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look)
             b = nearer(b, t, of.vel)
         if (b.high - b.low <= 1e-14 * h and t == b.high) or b.f_low <= 0.0 or abs(of.vel) <= 1e-14 * start.vel:
             break
-        t = between(b)
+        t = max(between(b), ROUNDING * h)
         if not b.low < t < b.high:
             t = 0.5 * (b.low + b.high)
         if b.high - b.low <= 1e-14 * h:
             t = b.high
         k = 1
         if arms is not None:
-            fill_halves(t, arms, tools, 1)
+            fill(t, None, arms, tools, 1)
     if not lasts and b.f_low <= 0.0 and b.low == 0.0:  # it does not slip at all
         return Stretch(e_0, 0.0, False, 0.0j, 0.0, 0.0j, 0.0j)
     vel, R_0, R_m, R_1 = max(of.vel, 0.0) if lasts else 0.0, max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
@@ -375,7 +376,7 @@ def slips(e_0, e, i, w, top, start, R, t, k, forced, h, G, T, arms, tools, look)
         look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], start.vel, vel)
     end = (R_1 + T * vel) * of.n - T * (top.p + 2.0 * t * top.q)
     if arms is not None:
-        others, _, _ = remembered(e, i, way.p, top.p - start.vel * start.n, way.q, k, True, tools, arms)
+        others, _, _ = remembered(e, i, way.p, top.p - start.vel * start.n, way.q, t, k, True, tools, arms)
         end -= others
     return Stretch(end, t, lasts, f_1, vel, of.area, of.moment)
 
@@ -395,13 +396,6 @@ def even_part(R, more, t, shortest):
 
 
 # --- a step ---
-
-
-@_inline
-def fill_halves(t, arms, tools, k):
-    """`fill` of a time for slot k, and of its half for slot k + 2, for arms alone."""
-    fill(t, None, arms, tools, k)
-    fill(0.5 * t, None, arms, tools, k + 2)
 
 
 @_inline
@@ -447,7 +441,7 @@ def rubs(e_0, e, i, w, top, R, t, k, done, tol, h, G, T, arms, tools, look):
         if u < t:
             k = 1
         if arms is not None and k == 1:
-            fill_halves(u, arms, tools, 1)
+            fill(u, None, arms, tools, 1)
         if mode == STICK:
             of = sticks(e_0, e, i, w, top, R, u, k, tol, T, arms, tools, look)
             stuck, when = stuck + of.t, when + of.t * (begun + 0.5 * of.t)
@@ -456,7 +450,7 @@ def rubs(e_0, e, i, w, top, R, t, k, done, tol, h, G, T, arms, tools, look):
         e_0, area, moment = of.e, area + of.area, moment + begun * of.area + of.moment
         if mode == STICK or of.t > 0.0:
             f, vel = of.f, of.vel
-        if of.lasts and u == left:
+        if (of.lasts and u == left) or left - of.t <= ROUNDING * h:  # what is left is the rounding of the time
             limit = max(at(R, of.t), 0.0)
             break
         zeros = 0 if of.t > 0.0 else zeros + 1
@@ -532,8 +526,6 @@ def events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did)
     """The springs that are left, from event to event."""
     h, J, G = tools.h, s.shape[0], glassy(arms)
     ext = Pair(e[:J], e[J:])
-    if arms is not None:
-        fill(0.5 * h, None, arms, tools, 2)
     area, moment, end, sticking = did
     stuck, when = h * sticking, 0.5 * h * h * sticking
     least = np.inf
@@ -561,7 +553,7 @@ def events(s, e, gap, w, path, y_1, y_2, T, modes, arms, tools, look, made, did)
                 if look is not None:
                     look.sums[NORMAL_VISCOUS] += w[i] * normal
                     look.sums[SHEAR_VISCOUS] += w[i] * lost
-            elif t > 0.0:
+            elif t > ROUNDING * h:
                 disc = presses(s, i, w[i], z_1, z_2, t, k, T, arms, tools, look)
                 top = Way(way_p + 2.0 * done * way_q, way_q)
                 of = rubs(vector(ext, 0, i), ext, i, w[i], top, disc, t, k, done, tol, h, G, T, arms, tools, look)

@@ -82,7 +82,7 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         n = scaled(1.0 / rho, g)
         ahead = along(v.a, n) - R.b
         vel = max(out, 0.0) / T if viscous else max(ahead, 0.0)
-        n_1, l_1 = slid(n, vel, h, v, R, T, 1.0, phi, viscous, True)
+        n_1, l_1 = slid(n, vel, h, v, R, T, 1.0, phi, viscous, True, True)
         f_0 = force_and_rates(n, vel, v.a, v.b, R.a, R.b, 2.0 * z_2, T, 1.0)
         f_1 = force_and_rates(n_1, l_1, last, v.b, R_1, R_dot, 2.0 * z_2, T, 1.0)
         area, moment = area_and_moment(f_0, f_1, h)

@@ -93,18 +93,24 @@ def instance(name: str, value: object, *kinds: type[Any]) -> None:
         raise FieldTypeError(f"{name} must be of kind {names}, got {value!r}{hint}", name)
 
 
-def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
-    """Real numbers of any shape as float64 (a number becomes shape ()), refused if one is NaN or infinite."""
+def real_array(name: str, values: ArrayLike, unit: str = "") -> Array:
+    """Real numbers of any shape as float64 (a number becomes shape ())."""
     try:
         array = np.asarray(values)
     except ValueError as ragged:
         raise FieldTypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}", name) from ragged
     if array.dtype.kind not in "iuf":
         raise FieldTypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}", name)
+    return array.astype(np.float64, copy=False)
+
+
+def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
+    """As `real_array`, refused if one is NaN or infinite."""
+    array = real_array(name, values, unit)
     if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
         bad = array[~np.isfinite(array)].flat[0]
         raise FieldError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}", name)
-    return array.astype(np.float64, copy=False)
+    return array
 
 
 def positive_array(name: str, values: ArrayLike, unit: str = "") -> Array:

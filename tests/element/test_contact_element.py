@@ -58,7 +58,7 @@ def test_full_slip_and_stick_have_their_closed_forms():
     F_N = BALL.force(DEPTH, ELASTIC.E_star)
     assert_allclose(F, [0, MU_0 * F_N, F_N], rtol=1e-12, atol=1e-15)
     flat = element(shape=mdr.FlatPunch(a=1e-3))
-    assert flat.n_state == N_HEAD + 3
+    assert flat.n_state == N_HEAD + 3 + 1
     F, _ = flat.step(flat.at_rest((0, 0, DEPTH)), 0.0, (-0.3 * REACH, 0, DEPTH))
     assert_allclose(F[0], -0.3 * REACH * 2e-3 * ELASTIC.G_star, rtol=1e-12)
 
@@ -81,7 +81,7 @@ def test_a_straight_piece_in_seven_is_one_piece():
         for k in range(1, 8):
             G, other = contact.step(other, DT, start + k / 7 * (u - start))
         assert_allclose(G, F, rtol=1e-11, atol=1e-11 * MU_0 * BALL.force(DEPTH, ELASTIC.E_star))
-    assert_allclose(other[N_HEAD:], state[N_HEAD:], atol=1e-11)
+    assert_allclose(other[N_HEAD:-1], state[N_HEAD:-1], atol=1e-11)
     assert_allclose(contact.dissipated(other), contact.dissipated(state), rtol=1e-10)
 
 
@@ -128,8 +128,58 @@ def test_an_open_contact_forgets():
     _, state = follow(contact, walk(10))
     F, state = contact.step(state, 1.0, (0, 0, -1e-6))
     assert_array_equal(F, 0)
-    assert np.abs(state[N_HEAD:]).max() < 1e-12  # a second is two hundred of its relaxation times
+    assert np.abs(state[N_HEAD:-1]).max() < 1e-12  # a second is two hundred of its relaxation times
     assert contact.stored(state) < 1e-20
+
+
+@pytest.mark.parametrize("shape", [BALL, mdr.FlatPunch(a=1e-3)], ids=["ball", "punch"])
+def test_what_is_lifted_straight_up_has_no_force_in_the_plane(shape):
+    """At once or in many steps; with a dashpot and arms the limit of friction comes to zero while nothing pulls."""
+    contact = element(mdr.Prony(E_inf=2e6, arms=((1e6, 2e-3),), nu=0.3, tau=5e-4), shape)
+    n = contact._row.gap.size
+    rest = contact.at_rest((0, 0, DEPTH))
+    lifts = [(dt, (part,)) for dt in (1e-5, 1e-3, 1e-2) for part in (0.99, 0.6, 0.1)]
+    for dt, parts in [*lifts, (1e-4, np.linspace(0.9, 0.2, 30))]:
+        state = rest
+        for part in parts:
+            F, state = contact.step(state, dt, (0, 0, part * DEPTH))
+            assert_array_equal(F[:2], 0)
+            assert_array_equal(state[N_HEAD + 2 * n : -1], 0)
+        assert np.all(np.isfinite(state))
+
+
+def some_materials(rng):
+    """Materials of all kinds, times over six decades."""
+    tau, arms = 10.0 ** rng.uniform(-6, 0), [(10.0 ** rng.uniform(4, 8), 10.0 ** rng.uniform(-6, 1)) for _ in range(3)]
+    return [
+        ELASTIC,
+        mdr.KelvinVoigt(E=3e6, nu=0.3, tau=tau),
+        mdr.StandardLinearSolid(E_inf=3e6, E_1=arms[0][0], tau_1=tau, nu=0.3),
+        mdr.Prony(E_inf=3e6, arms=arms, nu=0.3),
+        mdr.Prony(E_inf=3e6, arms=arms, nu=0.3, tau=tau),
+    ]
+
+
+def some_way(rng, u):
+    """Where a host may go next: nowhere, up or down, away, back to the start, on, or over any distance."""
+    over = rng.normal(size=2) * [1, rng.integers(2)] * REACH * 10.0 ** rng.uniform(-3, 1.5)
+    ways = [u, [*u[:2], rng.uniform(-1, 1) * DEPTH], [*u[:2], -DEPTH], [0, 0, DEPTH], [*(u[:2] + over), u[2]], -u]
+    return np.minimum(ways[rng.integers(len(ways))], [np.inf, np.inf, DEPTH])
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("kind", range(5), ids=["elastic", "Kelvin", "SLS", "arms", "arms and dashpot"])
+def test_no_step_answers_nan(kind):
+    """Random steps over six decades of time; every state is taken for the next step, so that it is possible too."""
+    rng = np.random.default_rng(7)
+    for shape in (BALL, mdr.FlatPunch(a=1e-3), mdr.Cone(theta=0.05)) * 4:
+        contact = element(some_materials(rng)[kind], shape, n_springs=16)
+        state = contact.at_rest((0, 0, rng.choice([0.5, 0, -1]) * DEPTH))
+        for _ in range(15):
+            dt, tangent = 10.0 ** rng.uniform(-6, 0), bool(rng.integers(2))
+            answer = contact.step(state, dt, some_way(rng, state[:3]), tangent=tangent)
+            state = answer[1]
+            assert all(np.all(np.isfinite(one)) for one in (*answer, contact.dissipated(state)))
 
 
 # --- a state ---
@@ -161,15 +211,14 @@ def test_a_batch_is_single_calls(material):
             assert_array_equal(f, F[b])
             assert_array_equal(k, K[b])
         assert_array_equal(singles, states)
-    lost = [contact.dissipated(one) for one in singles]
-    assert_allclose(contact.dissipated(states), lost, rtol=1e-12)  # a sum, in another order
+    assert_allclose(contact.dissipated(states), [contact.dissipated(one) for one in singles], rtol=1e-12)
 
 
 def test_names_of_a_state():
     contact = element(MATERIALS["arms"])
     names = contact.state_names
-    assert len(set(names)) == len(names) == contact.n_state == N_HEAD + 9 * 48
-    assert (names[:5], names[-1]) == (("u_x", "u_y", "u_z", "work", "s[0]"), "e_y_2[47]")
+    assert len(set(names)) == len(names) == contact.n_state == N_HEAD + 9 * 48 + 1
+    assert (names[:5], names[-2:]) == (("u_x", "u_y", "u_z", "work", "s[0]"), ("e_y_2[47]", "element"))
 
 
 # --- energy and invariance ---
@@ -184,7 +233,7 @@ def test_what_is_lost_is_what_friction_and_material_take(material):
     sums, units = np.zeros(N_SUMS), np.array([row.length_x, row.length_x, row.length_z])
     state = contact.at_rest((0, 0, DEPTH / 2))
     for u in us:
-        springs, h = state[N_HEAD:].copy(), DT
+        springs, h = state[N_HEAD:-1].copy(), DT
         s, e = springs[: rows * n].reshape(rows, n), springs[rows * n :].reshape(2 * rows, n)
         (x, y, z), start = (u - state[:3]) / units / h, state[:3] / units
         look = LookAcross(sums, np.zeros(4), *np.zeros((4, n)))
@@ -258,6 +307,55 @@ def test_the_tangent_of_stick_and_of_slip_in_closed_form():
         assert 0 < K[1, 1] <= k_x * (1 + 1e-8)  # a slip that turns stiffens against it
 
 
+@every_material
+def test_a_spring_that_touches_soon_is_not_in_the_tangent(material):
+    """Approach that ends nearer before a touch than a host can tell: dF_z/du_z is that of the springs in contact."""
+    contact = element(material)
+    gap, rest = contact._row.gap, contact.at_rest((0, 0, DEPTH / 2))
+    after = np.sort(gap)[np.searchsorted(np.sort(gap), 0.6)]
+    for near in (3e-6, 1e-7, 1e-8):
+        u = np.array([0.3 * REACH, 0.1 * REACH, (after - near) * DEPTH])
+        K = contact.step(rest, DT, u, tangent=True)[2]
+        known = np.empty((3, 3))
+        for j, unit in enumerate((REACH, REACH, -DEPTH)):  # in the plane nothing touches; up on the side of the springs
+            known[:, j] = one_sided(contact, rest, u, j, 1e-6 * unit)
+        assert_allclose(K, known, rtol=0, atol=1e-6 * np.abs(K).max())
+
+
+def one_sided(contact, state, u, j, d):
+    """dF/du_j by a difference of second order over d and 2 d."""
+    F, near, far = (contact.step(state, DT, u + k * d * (np.arange(3) == j))[0] for k in range(3))
+    return (4 * near - far - 3 * F) / (2 * d)
+
+
+def test_the_tangent_of_a_spring_about_to_slip_is_that_of_stick():
+    """The springs of a ball reach the rim one by one: the next is nearer than 1e-6 of the reach."""
+    contact = element()
+    rest, d = contact.at_rest((0, 0, 0.7 * DEPTH)), 0.7
+    rim = np.sort(d - contact._row.gap[contact._row.gap < d])[10]
+    u = np.array([(rim - 2e-8) * REACH, 0, d * DEPTH])
+    K = contact.step(rest, 0.0, u, tangent=True)[2]
+    assert_allclose(K[:, 0], one_sided(contact, rest, u, 0, -1e-6 * REACH), rtol=0, atol=1e-6 * np.abs(K).max())
+
+
+def test_a_still_step_is_as_stiff_as_steps_beside_it():
+    """Where the springs are at the rim, with an arm: stick, or slip, and nothing in between or beyond."""
+    contact = element(mdr.Prony(E_inf=2e6, arms=((1e6, 2e-3),), nu=0.3, tau=5e-4), mdr.Cone(theta=0.05))
+    rng = np.random.default_rng(5)
+    for _ in range(30):
+        state = contact.at_rest((0, 0, DEPTH / 2))
+        for _ in range(4):
+            u = np.array([*rng.normal(size=2) * 2 * REACH, rng.uniform(0.1, 0.95) * DEPTH])
+            _, state = contact.step(state, DT, u)
+        F, _, K = contact.step(state, DT, u, tangent=True)
+        for j in range(2):
+            d = np.copysign(REACH * (np.arange(3) == j), F[j] if F[j] else 1.0)
+            beside = [
+                (contact.step(state, DT, u + way * d)[0][j] - F[j]) / (way * d[j]) for way in (1e-8, 1e-6, 1e-4, -1e-4)
+            ]
+            assert min(beside) - 1e-3 * K[2, 2] <= K[j, j] <= max(beside) + 1e-3 * K[2, 2]
+
+
 def test_where_springs_switch_the_tangent_looks_ahead():
     """At rest in full slip: on the way of the slip nothing resists."""
     flat = element(shape=mdr.FlatPunch(a=1e-3))
@@ -289,7 +387,15 @@ HOSTILE = {
     "dt a word": ({"dt": "1"}, "real number"),
     "tangent 1": ({"tangent": 1}, "True or False"),
     "state NaN": ({"state": "nan"}, "finite"),
-    "state of another": ({"state": "other"}, "of this element"),
+    "state of other springs": ({"state": "other"}, "of this element"),
+    "state of another shape": ({"state": "shape"}, "of this element"),
+    "state of another material": ({"state": "material"}, "of this element"),
+    "state of another friction": ({"state": "mu_0"}, "of this element"),
+    "state of zeros": ({"state": "zeros"}, "of this element"),
+    "state that pulls": ({"state": "pulls"}, "possible"),
+    "state beyond u_z_max": ({"state": "deep"}, "possible"),
+    "state within the indenter": ({"state": "within"}, "possible"),
+    "state beyond friction": ({"state": "stretched"}, "possible"),
     "state of a cube": ({"state": "cube"}, "of this element"),
     "state None": ({"state": None}, "real numbers"),
 }
@@ -303,6 +409,14 @@ def test_hostile_steps_are_refused(change, words):
         "nan": np.where(np.arange(rest.size) == 9, np.nan, rest),
         "other": element(n_springs=64).at_rest(GOOD),
         "cube": rest[None, None],
+        "shape": element(shape=mdr.Paraboloid(R=5.001e-3)).at_rest(GOOD),
+        "material": element(mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-9)).at_rest(GOOD),
+        "mu_0": replace(contact, mu_0=MU_0 * (1 + 1e-6)).at_rest(GOOD),
+        "zeros": np.zeros(rest.size),
+        "pulls": np.where(np.arange(rest.size) == N_HEAD + 40, -1e-6, rest),
+        "deep": np.where(np.arange(rest.size) == N_HEAD, 1.001, rest),
+        "within": np.where(np.arange(rest.size) == 2, 2 * GOOD[2], rest),
+        "stretched": np.where(np.arange(rest.size) == N_HEAD + 48, rest[N_HEAD] + 1e-6, rest),
     }
     given = {"state": rest, "dt": DT, "u": GOOD} | change
     if isinstance(given["state"], str):

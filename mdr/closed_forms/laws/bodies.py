@@ -221,7 +221,7 @@ def least_over_depth(case: SlidingContact) -> LeastOverDepth:
     """
     q, z = _groups(_of_the_paper(case))
     k_xc = float((q / z).real)
-    if k_xc <= 0:
+    if not k_xc > 0:
         raise ValueError("v_c has no minimum over the depth: the body is below its resonance, Re(q/z) <= 0")
     return LeastOverDepth(k_xc, float(abs((q / z).imag) * abs(z) / abs(q)))
 

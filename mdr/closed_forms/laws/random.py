@@ -176,7 +176,7 @@ def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> flo
             "the law is that of a rigid pull on an elastic or Kelvin material at a positive mean depth, got "
             f"{case.pull!r}, shake = {case.shake!r}, {case.material!r}, u_z0 = {depth:.6g} m: use random_cof"
         )
-    if spectrum.rms > KEPT * depth:
+    if not spectrum.rms <= KEPT * depth:
         raise ValueError(
             f"the rms of the spectrum, {spectrum.rms:.4g} m, is more than a third of the mean depth of {depth:.4g} m: "
             "the contact is lost now and then, which the law leaves out; use random_cof"
