@@ -24,6 +24,7 @@ OF_DASHPOT = {
     "G_OF_E": ("e + T p", "e"),
     "SLIP": ("n' (R + T vel) = p - (p.n) n and T vel' + vel = p.n - R'", "n' R = p - (p.n) n, vel = p.n - R'"),
     "T_VEL": (" + CONTACT_T * vel", ""),
+    "T_VEL_START": ("CONTACT_T * start.vel + ", ""),
     "T_O_VEL": (" + CONTACT_T * o.vel", ""),
     "T_Z": (" + CONTACT_T * z_1", ""),
     "PHI_0": ("time->phi[0]", "NULL"),
