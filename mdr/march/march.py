@@ -290,7 +290,7 @@ def check(case: SlidingContact, v_0: float) -> None:
 
 
 def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, gain: float | None) -> Orbit | None:
-    """The periodic state, where it can be solved for."""
+    """The periodic state, where it can be solved for: of springs that know nothing of each other, each by itself."""
     scaled, orbit = stepper.scaled, None
     at_once = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
     if at_once and from_full_slip and stepper.v > 0:

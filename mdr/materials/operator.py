@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.materials.base import Material, complex_modulus
 
 SLOWEST = 1e6  #: omega tau_j, from which on an arm is not told from one of this time: it relaxes by less in a period
+FASTEST = 1e-6  #: the same, up to which arms together are one of their stiffness and viscosity
 STIFFEST = 1e10  #: omega tau, from which on rounding costs the mean force of a period more than 1e-7
 
 
@@ -36,10 +37,10 @@ class Rheology:
 
     @classmethod
     def periodic(cls, material: Material, omega: float) -> Rheology:
-        """The same for a periodic motion, in which all arms slower than SLOWEST have one time, and are one.
+        """The same for a periodic motion, in which all arms slower than SLOWEST are one, and all faster than FASTEST.
 
-        In a periodic state every arm has relaxed about its mean. What is left of its relaxation within a period is of
-        the order of 1/theta_j.
+        In a periodic state every arm has relaxed about its mean. What a slow one relaxes within a period is of the
+        order of 1/theta_j. Fast ones differ from one of their stiffness and viscosity by the square of theta_j.
 
         Raises ValueError for a dashpot so slow that what relaxes in a period is lost in rounding.
         """
@@ -51,9 +52,11 @@ class Rheology:
         one = cls.of(material, omega)
         arms = list(zip(one.rho, one.theta, strict=True))
         slow = sum(rho for rho, theta in arms if theta >= SLOWEST)
-        quick = [arm for arm in arms if arm[1] < SLOWEST]
-        rho, theta = zip(*[(slow, SLOWEST)] * (slow > 0), *quick, strict=True) if arms else ((), ())
-        return cls(one.T, rho, theta)
+        fast = sum(rho for rho, theta in arms if theta <= FASTEST)
+        dashpot = sum(rho * theta for rho, theta in arms if theta <= FASTEST)
+        arms = [arm for arm in arms if FASTEST < arm[1] < SLOWEST]
+        arms = [(slow, SLOWEST)] * (slow > 0) + arms + ([(fast, dashpot / fast)] if dashpot > 0 else [])
+        return cls(one.T, tuple(rho for rho, _ in arms), tuple(theta for _, theta in arms))
 
     @property
     def slow(self) -> float:
