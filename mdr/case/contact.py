@@ -268,8 +268,8 @@ class SlidingContact(Summarised):
 
     @property
     def rheology(self) -> Rheology:
-        """The operator of the material in units of the long-time modulus and of 1/omega."""
-        return Rheology.of(self.material, self.omega)
+        """The operator of the material in units of the long-time modulus and of 1/omega, for periodic motions."""
+        return Rheology.periodic(self.material, self.omega)
 
     @property
     def u_z_max(self) -> float:

@@ -24,6 +24,7 @@ from mdr.element.c_function import c_function
 from mdr.element.kernels import BEYOND, IMPOSSIBLE, N_HEAD, NOT_FINITE, OF_ANOTHER, SpringRow, fault, steps
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
+from mdr.materials.operator import Rheology
 from mdr.normal.spring_grid import nodes
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
@@ -288,7 +289,7 @@ def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: flo
     w = width / total
     if gap.max() == gap.min():  # a flat face: one spring stands for all
         gap, w = gap[:1], np.ones(1)
-    rheology, length_x = case.rheology, mu_0 * material.mindlin_ratio * deepest
+    rheology, length_x = Rheology.of(material, case.omega), mu_0 * material.mindlin_ratio * deepest
     law = law_of(rheology.T, rheology.rho, rheology.theta)
     return SpringRow(
         gap, w, law, length_x, deepest, material.G_star * total * length_x, material.E_star * total * deepest

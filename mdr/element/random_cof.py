@@ -32,6 +32,7 @@ SAMPLES = 32  #: of the shortest period
 CORRELATIONS = 64  #: times of correlation in a history
 MEMORIES = 16  #: times that the pull goes through the rms, or the slowest relaxation lasts, in it at least
 LEAST_REALISATIONS = 8
+SLOW = 100  #: relaxation time over that of correlation, of an arm that bears little but the deviation from a mean
 RELAXED = 12  #: relaxation times after which the start is forgotten
 MOST_SAMPLES = 2**24  #: of a history
 
@@ -218,8 +219,14 @@ class _Drawn(NamedTuple):
 def _drawn(case: SlidingContact, spectrum: Spectrum, slowest: float) -> _Drawn:
     """Long enough for the slowest pull, close enough for the shortest period."""
     dt = float(np.float32(1 / (SAMPLES * spectrum.f[-1])))
-    memory = max(_per_rate(case) * spectrum.rms / slowest, _relaxation(case))
+    pull, relaxation = _per_rate(case) * spectrum.rms / slowest, _relaxation(case)
+    memory = max(pull, relaxation)
     n_t = 2 * np.ceil(max(CORRELATIONS * spectrum.correlation_time, MEMORIES * memory) / (2 * dt))
+    if n_t > MOST_SAMPLES and relaxation > pull:
+        raise ValueError(
+            f"a relaxation time of {relaxation:.6g} s is longer than histories of {MOST_SAMPLES} samples are: lower it "
+            f"to {SLOW * spectrum.correlation_time:.3g} s, {SLOW} times that of correlation, about whose mean it relaxes"
+        )
     if n_t > MOST_SAMPLES:
         raise ValueError(
             f"a history would have {n_t:.2g} samples, {SAMPLES} of the period 1/f of {spectrum.f[-1]:.6g} Hz, at most "

@@ -11,6 +11,7 @@ and their sum at its end too: Radau's method of third order. What it does not re
 
 from __future__ import annotations
 
+from math import factorial
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from mdr.spring.law import Law, phi_of
 from mdr.tools.arrays import Array
 
 RESOLVED = 16  #: steps per oscillation of the body on the contact, from which on it counts as resolved
+TERMS = 20  #: of a series whose terms are 1/n! at most
 N_BODY = 2
 Y, RATE = range(N_BODY)  #: parts of a state of the body
 
@@ -55,19 +57,47 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, ringing: float) ->
         return Body(True, False, 0.0, 0.0, K, h, 0.0, square, none, none, square)
     if ringing * h > 2 * np.pi / RESOLVED:
         return Body(False, True, M, C, K, h, ringing, square, none, none, square)
-    from scipy.linalg import expm
-
-    # the response to a force f + g t, beside the free motion: y'' = (-K y - C y' - f - g t)/M
-    A = np.zeros((4, 4))
-    A[0, 1], A[1] = 1.0, [-K / M, -C / M, -1 / M, 0.0]
-    A[2, 3] = 1.0
-    move = expm(h * A)
-    free, constant, linear = move[:2, :2], move[:2, 2], move[:2, 3]
+    way, way_1, way_2, turn, rate = pushed(C * h / M, K * h**2 / M)
+    free = ((turn, h * way), (-K * h / M * way, rate))
+    # a force f + g t takes off way_1 f h² + way_2 g h³, over M, and way f h + way_1 g h² of the rate;
     # f = 4 a/h - 6 b/h², g = 12 b/h³ - 6 a/h² has the area a and the moment b
-    area = -(4 / h * constant - 6 / h**2 * linear)
-    moment = -(12 / h**3 * linear - 6 / h**2 * constant)
+    area = np.array([h * (4 * way_1 - 6 * way_2), 4 * way - 6 * way_1]) / M
+    moment = np.array([12 * way_2 - 6 * way_1, (12 * way_1 - 6 * way) / h]) / M
     stuck = _stuck(law, h, area, moment)
-    return Body(False, False, M, C, K, h, ringing, _square(free), _pair(area), _pair(moment), _square(stuck))
+    return Body(False, False, M, C, K, h, ringing, free, _pair(area), _pair(moment), _square(stuck))
+
+
+def pushed(c: float, k: float) -> tuple[float, float, float, float, float]:
+    """A body y'' + c y' + k y = 0 after the time 1: its way y from a velocity of one, the first and the second integral
+    of this over the time, its way from a displacement of one, and its velocity from a velocity of one.
+
+    With decay rates p and q the first three are divided differences of the exponential at -p and -q; with 0; and with 0
+    twice. They follow from a series where both rates are small, else from each other, divided by what is not small.
+    """
+    root = np.emath.sqrt(c * c / 4 - k)
+    if c / 2 + root.real <= 1 and k <= 1:
+        sums, last, now = np.zeros(3), 0.0, 1.0
+        for n in range(TERMS):
+            sums += np.array([1.0, 1 / (n + 2), 1 / ((n + 2) * (n + 3))]) * now / factorial(n + 1)
+            last, now = now, -c * now - k * last
+        way, way_1, way_2 = sums.tolist()
+        return way, way_1, way_2, 1 - k * way_1, 1 - c * way - k * way_1
+    if root.imag:
+        decay, way = np.exp(-c / 2), np.exp(-c / 2) * np.sinc(root.imag / np.pi)
+        turn, rate = (decay * np.cos(root.imag) + sign * c / 2 * way for sign in (1, -1))
+        way_1 = (1 - turn) / k
+        return float(way), float(way_1), float((1 - way - c * way_1) / k), float(turn), float(rate)
+    q = c / 2 + float(root)
+    p = k / q
+    way, slow = np.exp(-p) * phi_of(2 * float(root))[1], phi_of(p)
+    way_1 = (slow[1] - way) / q
+    return (
+        float(way),
+        float(way_1),
+        float((slow[2] - way_1) / q),
+        float(np.exp(-p) + p * way),
+        float(np.exp(-q) - p * way),
+    )
 
 
 def _pair(of: Array) -> Pair:

@@ -19,7 +19,7 @@ from mdr.case.depth_cycle import harmonic_sum
 from mdr.march import loop
 from mdr.march.body import Body, body_of
 from mdr.march.full_slip import FullSlip
-from mdr.materials.operator import Rheology
+from mdr.materials.operator import SLOWEST, Rheology
 from mdr.normal.springs import SpringArray
 from mdr.spring.law import Law, law_of
 from mdr.spring.settle import NormalPeriod, settled
@@ -114,11 +114,38 @@ class Drive:
 
 
 @dataclass(frozen=True, eq=False)
+class Slow:
+    """What arms do that a period does not tell from springs, which have relaxed about the mean of their spring.
+
+    Such an arm bears rho (s - m), m the mean of s over a period; and so across. Beside the spring it is a stiffer one,
+    1 + rho, of a compression s - rho m/(1 + rho), under which the surface lies as much deeper; and of an extension that
+    is less by a constant as well, which does not matter to friction.
+    """
+
+    rho: float  #: their stiffness over the long-time one
+    sunk: Array  #: (n,) by which gaps are greater
+
+    @property
+    def error(self) -> float:
+        """Of the COF over mu_0: what these arms, of 1/SLOWEST or less, relax within a period."""
+        return self.rho / (1 + self.rho) / SLOWEST
+
+    @classmethod
+    def of(cls, rheology: Rheology, row: loop.Springs, drive: Drive) -> Slow:
+        """Of springs in their periodic normal motion."""
+        if not rheology.slow:
+            return cls(0.0, np.zeros_like(row.gap))
+        s = _settled(row, drive, law_of(rheology.T, rheology.rho, rheology.theta)).s
+        return cls(rheology.slow, rheology.slow / (1 + rheology.slow) * (s[0] - s[1]))
+
+
+@dataclass(frozen=True, eq=False)
 class ScaledContact:
     """The parts of a contact that the march needs."""
 
     units: Units
     springs: loop.Springs
+    slow: Slow  #: what slow arms have made of stiffness and gaps
     n_alike: int  #: how many springs that stand alike the only one stands for
     drive: Drive
     rheology: Rheology  #: operator of the material, its times in units of 1/omega
@@ -136,27 +163,24 @@ class ScaledContact:
         """Scale a case, its springs and its motion; springs that all stand alike become one if asked."""
         unit, width, rheology = case.cycle.unit, float(springs.width.sum()), case.rheology
         length_x = case.mu_0 * case.material.mindlin_ratio * unit
-        units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
         row, n_alike = loop.Springs(springs.gap / unit, springs.width / width), 1
         if lump and row.gap.max() == row.gap.min():
             row, n_alike = loop.Springs(row.gap[:1], np.ones(1)), row.gap.size
+        drive = Drive.of(case, length_x, steps)
+        slow = Slow.of(rheology, row, drive)
+        row, rheology, width = loop.Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
+        units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
         law = law_of(rheology.T, rheology.rho, rheology.theta)
         body, across = (
             body_of(M, C, K, law, 2 * np.pi / steps, _ringing(M, K, rheology))
             for M, C, K in (_body_groups(case, units.stiffness_x, one) for one in (False, True))
         )
-        return cls(units, row, n_alike, Drive.of(case, length_x, steps), rheology, law, body, across)
+        return cls(units, row, slow, n_alike, drive, rheology, law, body, across)
 
     @cached_property
     def normal(self) -> NormalPeriod:
         """The springs in their periodic normal motion."""
-        found = settled(*self.springs, self.drive.z, self.drive.z_dot, self.law)
-        if found is None:
-            raise ValueError(
-                f"steps_per_period = {self.drive.steps} is too coarse for the normal motion of springs with these "
-                "arms, which does not become periodic; raise it"
-            )
-        return found
+        return _settled(self.springs, self.drive, self.law)
 
     @cached_property
     def at_stake(self) -> float:
@@ -181,6 +205,16 @@ class ScaledContact:
         n_steps = n_periods * self.drive.steps
         area, moment, y, rate = np.empty((4, n_steps))
         return loop.Trace(area, moment, y, rate, np.empty((n_steps, 2, 3)))
+
+
+def _settled(row: loop.Springs, drive: Drive, law: Law) -> NormalPeriod:
+    found = settled(*row, drive.z, drive.z_dot, law)
+    if found is None:
+        raise ValueError(
+            f"steps_per_period = {drive.steps} is too coarse for the normal motion of springs with these "
+            "arms, which does not become periodic; raise it"
+        )
+    return found
 
 
 def _over_a_period(harmonics: NDArray[np.complex128], steps: int) -> tuple[Array, Array]:

@@ -1,15 +1,16 @@
 """The periodic state of springs under a rigid pull, which know nothing of each other: each solved for by itself.
 
 Newton's method on the map of a period, for all springs at once: the derivative of each by its own extensions and arms
-comes from as many periods as it has of these. Friction makes the map non-expansive (periodic_orbit.py), so that a step
-which does not make the change of a spring smaller is no gain, and this spring is marched on instead.
+comes from as many periods as it has of these, but for arms that a period forgets. Friction makes the map non-expansive
+(periodic_orbit.py), so that a step which does not make the change of a spring smaller is no gain, and this spring is
+marched on instead.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from mdr.march.orbit_search import Orbit
+from mdr.march.orbit_search import FORGOTTEN, Orbit
 from mdr.march.steady_state import Settling
 from mdr.march.stepper import MarchState, Stepper
 from mdr.tools.arrays import Array
@@ -26,6 +27,7 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
     """The periodic state of every spring, from one of any other; None where it is not found."""
     scaled = stepper.scaled
     n, w = scaled.springs.gap.size, scaled.springs.w
+    lasting = np.tile(np.r_[True, np.array(scaled.rheology.theta) > FORGOTTEN], scaled.ways)
     roots = np.sqrt(np.tile(np.r_[1.0, scaled.rheology.rho], scaled.ways))[:, None]
     farthest = float(start.s[0].max())
     x = _inside(stepper, start.e.copy(), start)
@@ -46,8 +48,8 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
             image = _marched(stepper, x, start)
             change = np.where(worse & (part < SHORTEST), before, _length(roots * (image - x)))
             part = np.where(part < SHORTEST, 1.0, part)
-        turn = np.empty((n, len(x), len(x)))
-        for k in range(len(x)):
+        turn = np.zeros((n, len(x), len(x)))
+        for k in np.flatnonzero(lasting):
             push = np.zeros_like(x)
             push[k] = np.where(x[k] > 0, -PUSH, PUSH) * farthest
             turn[:, :, k] = ((_marched(stepper, x + push, start) - image) / push[k]).T

@@ -113,6 +113,11 @@ class Converged:
         return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.off_load)
 
     @property
+    def left_out(self) -> float:
+        """What no finer run finds: of the load, and of the friction of arms that are taken for springs."""
+        return self.missing_load + (0.0 if self.slips_fully else self.scaled.slow.error)
+
+    @property
     def to_begin_from(self) -> Converged | None:
         """Itself, if other runs may begin in its state: a periodic one, and not full slip, where they begin anyway."""
         return self if self.settling.solved and not self.slips_fully else None
@@ -285,12 +290,14 @@ def check(case: SlidingContact, v_0: float) -> None:
 
 
 def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, gain: float | None) -> Orbit | None:
-    """The periodic state, where it can be solved for."""
+    """The periodic state, where it can be solved for: of springs that know nothing of each other, each by itself."""
     scaled, orbit = stepper.scaled, None
     at_once = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
     if at_once and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
-    alone = scaled.ways == 2 and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
+    alone = (
+        (scaled.ways == 2 or scaled.rheology.rho) and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
+    )
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start, motions = at_other_resolution(near.state, near.motions, near.scaled, scaled)

@@ -24,6 +24,7 @@ FULL = EXACT  #: what is missing in the COF in full slip
 SHARE = 20.0  #: safety: a search first stops at a change of tolerance/(SHARE gain); COFs are off by twice the distance
 AGES = 1e6  #: periods that full slip must last to count as periodic
 SOLVED_TOLERANCE = 1e-5  #: of cof/mu_0, bound on the error of a periodic state that was solved for; cof_error has it
+FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
 
@@ -60,7 +61,7 @@ def search(
     motions about them.
     """
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
-    slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta)
+    slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
     if slow and scaled.body.C:
         slow += (scaled.body.M / (np.pi * scaled.body.C) / periodic.CREEP,)
     if scaled.body.pull_time > SLOW_PULL:
@@ -237,16 +238,16 @@ class EnergyNorm:
         return np.asarray(x * self.roots)
 
     def pushes(self) -> tuple[Array, ...]:
-        """Displacements of unit length: of each arm of all springs, and of the position and velocity of the body; of
-        the springs themselves where there is neither.
+        """Displacements of unit length: of each arm of all springs that outlasts a period, and of the position and
+        velocity of the body; of the springs themselves where there is neither.
         """
         scaled, n = self.scaled, self.scaled.springs.gap.size
         moved = [(at + part, at + part + 1) for at, body in self.bodies for part in ((Y, RATE) if body.M else (Y,))]
         for way in range(scaled.ways):
             first = way * self.n_way
-            rows = range(1, 1 + len(scaled.rheology.rho))
+            rows = [1 + j for j, theta in enumerate(scaled.rheology.theta) if theta > FORGOTTEN]
             if not rows and not self.bodies:
-                rows = range(1)
+                rows = [0]
             moved += [(first + j * n, first + (j + 1) * n) for j in rows]
         pushes = np.zeros((len(moved), self.n_x))
         for push, (start, stop) in zip(pushes, moved, strict=True):

@@ -205,7 +205,7 @@ def within(
                 best = Bounded(replace(main, settling=unknown), 0.0)
             return best.finished(record), best.main
         best = Bounded(main, error)
-        met = error + main.settling.spread + main.missing_load <= resolution.accuracy
+        met = error + main.settling.spread + main.left_out <= resolution.accuracy
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed, free)

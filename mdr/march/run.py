@@ -190,7 +190,7 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
-    error += march.end.missing_load
+    error += march.end.left_out
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
     sticks = march.stick_share
@@ -251,6 +251,9 @@ def _recorded(march: Observed) -> dict[str, Any]:
     t = (march.n_periods - march.end.resolution.record) * march.end.case.period + np.arange(
         1, n_steps + 1
     ) * scaled.drive.h / scaled.units.omega
+    if scaled.slow.rho:  # they have relaxed about the mean, from which the stiffer springs were counted
+        s = s + scaled.slow.sunk
+        e, e_y = (one + scaled.slow.rho * one.mean(axis=0) for one in (e, e_y))
     n = scaled.n_alike
     if n > 1:
         e, s, f_x, f_z, e_y, f_y, mode = (np.repeat(one, n, axis=1) for one in (e, s, f_x, f_z, e_y, f_y, mode))

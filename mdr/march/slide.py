@@ -60,7 +60,7 @@ def slide(
     lump : bool
         Compute springs that provably move as one only once.
     limit_s : float, optional
-        Seconds of computing after which a run that has not settled ends. None sets no limit.
+        Seconds of computing, not of compiling, after which a run that has not settled ends. None sets no limit.
     accuracy : float
         Bound on the error of `cof` over mu_0 [-] that is asked for, from 1e-8 to 1e-3. Springs and steps that are not
         given are refined until `cof_error` is within it.

@@ -161,7 +161,7 @@ def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillatio
     Raises ValueError where no periodic depth is found: beside a resonance of the mass on the contact, or where it
     bounces in another rhythm.
     """
-    if motion.m_z == 0 and not Rheology.of(material, motion.omega).remembers:
+    if motion.m_z == 0 and not Rheology.periodic(material, motion.omega).remembers:
         return _quasi_static(shape, material, motion)
     return _balanced(shape, material, motion)
 
@@ -182,7 +182,7 @@ def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) 
 
 
 def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
-    rheology, E_star, omega = Rheology.of(material, motion.omega), material.E_star, motion.omega
+    rheology, E_star, omega = Rheology.periodic(material, motion.omega), material.E_star, motion.omega
     d_0 = static_depth(shape, material, motion.F_z0)
     k_zc = float(shape.stiffness(d_0, E_star))
     n = np.arange(N_HARMONICS + 1)

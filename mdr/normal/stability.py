@@ -32,7 +32,7 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
 
     A deviation grows by this factor in a period: above 1 the depth is unstable.
     """
-    rheology, h = Rheology.of(material, load.omega), 2 * np.pi / N_STEPS
+    rheology, h = Rheology.periodic(material, load.omega), 2 * np.pi / N_STEPS
     _, gap, width, n_core = nodes(shape, cycle, cycle.kept_gap(rheology.response), N_BAND)
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])

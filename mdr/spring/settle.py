@@ -16,7 +16,8 @@ from mdr.tools.jit import compiled
 MOST_PASSES = 400  #: over a period, for arms to find their periodic state
 NOT_PERIODIC = 1e-3  #: change over a period, of the unit of lengths, that a spring may be left with
 EARLY = 1e-9  #: of a step, by which a flight ends before the touch, so that by no rounding a spring touches in it
-SAME = 0.9999  #: ratio of two changes in a row, from which on they are not extrapolated
+MEMORY = 6  #: moves of a spring that are combined
+ALIKE = 1e-3  #: ratio of lengths below which moves are not told apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +50,8 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     Without arms a spring forgets its start within a period. With arms the passes go on. After each pass the start of
     an arm moves by its change in the period, divided by the share 1 - exp(-2 pi/theta) that it forgets in it. This is
     exact for a spring that keeps contact. Each time the change of a spring grows, the part of its moves beyond the
-    plain change is halved for good. In every third pass the ratio of the last two moves is taken: if it is between 0
-    and SAME, and the change did not grow, the limit of this geometric series is added at once.
+    plain change is halved for good, and its past is forgotten. Of the last moves of a spring the combination is taken
+    of which least is left (Anderson's method, each spring by itself), as a spring that loses contact moves by less.
 
     each: whether force and since are asked for.
     """
@@ -65,26 +66,32 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     def pass_through(x: Array, who: NDArray[np.int64], force: Array, since: Array) -> None:
         period(x, gap[who], w[who], z, z_dot, *law, tools, sums, force, since)
 
-    who, move = np.arange(n), np.zeros((rho.size, n))
-    trust, before, change = np.ones(n), np.full(n, np.inf), np.zeros(n)
-    forgotten = -np.expm1(-2 * np.pi * rate)[:, None]
+    memory, roots = min(rho.size, MEMORY), np.sqrt(np.append(1.0, rho))[:, None]
+    forgotten = np.append(1.0, -np.expm1(-2 * np.pi * rate))[:, None]
+    who, trust, before, change = np.arange(n), np.ones(n), np.full(n, np.inf), np.zeros(n)
+    (tried, move), (tries, moves) = np.zeros((2, *s.shape)), np.zeros((2, memory, *s.shape))
     for turn in range(MOST_PASSES if rho.size else min(1, tools.decay.shape[1])):
         start, x = s[:, who], s[:, who].copy()
         pass_through(x, who, none, none)
         s[:, who] = x
         change[who] = np.abs(x - start).max(axis=0)
-        moves = change[who] > 1e-13 * np.abs(x).max(axis=0) + 1e-15 * np.abs(gap[who])  # z - gap: its rounding
-        who, start, x = who[moves], start[1:, moves], x[1:, moves]
+        stays = change[who] <= 1e-13 * np.abs(x).max(axis=0) + 1e-15 * np.abs(gap[who])  # z - gap: its rounding
+        who, start, x = who[~stays], start[:, ~stays], x[:, ~stays]
         if not who.size:
             break
         grows = change[who] > before[who]
         trust[who] *= np.where(grows, 0.5, 1.0)
         before[who] = change[who]
-        last, plain = move[:, who], x - start
-        move[:, who] = plain + trust[who] * (plain / forgotten - plain)
-        shared, length = rho @ (last * move[:, who]), rho @ last**2
-        ratio = np.where((length > 0) & ~grows & (turn % 3 == 2), shared / np.where(length > 0, length, 1.0), 0.0)
-        s[1:, who] = start + move[:, who] / (1 - np.where((ratio > 0) & (ratio < SAME), ratio, 0.0))
+        now = (1 + trust[who] * (1 / forgotten - 1)) * (x - start)
+        if memory:
+            slot = turn % memory
+            tries[slot, :, who], moves[slot, :, who] = (start - tried[:, who]).T, (now - move[:, who]).T
+            moves[:, :, who[grows] if turn else who] = 0
+            tried[:, who], move[:, who] = start, now
+            past = moves[:, :, who]
+            shares = np.linalg.pinv((roots * past).transpose(2, 1, 0), rcond=ALIKE) @ (roots * now).T[:, :, None]
+            now = now - np.einsum("kjn,nk->jn", past + tries[:, :, who], shares[:, :, 0])
+        s[:, who] = start + now
     if rho.size and not change.max(initial=0) <= NOT_PERIODIC:
         return None
     every = np.arange(n)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 
 
@@ -11,6 +12,26 @@ class Tally:
 
     done: int = 0  #: that have been compiled
     open: int = 0  #: that are being compiled, one within another
+    since: float = 0.0  #: instant [s] from which on they are
+    took: float = 0.0  #: time [s] that those before took
+
+    def begin(self) -> None:
+        """One more is being compiled."""
+        if not self.open:
+            self.since = time.monotonic()
+        self.open += 1
+
+    def end(self) -> None:
+        """It is compiled."""
+        self.open -= 1
+        self.done += 1
+        if not self.open:
+            self.took += time.monotonic() - self.since
+
+    @property
+    def clock(self) -> float:
+        """Time [s] that stands still while something is compiled."""
+        return (self.since if self.open else time.monotonic()) - self.took
 
 
 TALLY = Tally()

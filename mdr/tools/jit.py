@@ -100,13 +100,12 @@ class Notice(event.Listener):
         if _is_ours(event):
             if not TALLY.open:
                 self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
-            TALLY.open += 1
+            TALLY.begin()
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
         if _is_ours(event):
-            TALLY.open -= 1
-            TALLY.done += 1
+            TALLY.end()
             self.line.tick()
 
 

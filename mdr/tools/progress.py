@@ -13,6 +13,8 @@ from contextvars import ContextVar
 from threading import Event
 from typing import TypeVar
 
+from mdr.tools.compiling import TALLY
+
 T = TypeVar("T")
 
 
@@ -68,8 +70,11 @@ def unless(ended: Event) -> Callable[[], None]:
 
 @contextmanager
 def time_limit(seconds: float | None) -> Iterator[None]:
-    """Limit of computing time, after which `time_is_over` is true. None sets none; an earlier outer limit stays."""
-    token = _deadline.set(min(_deadline.get(), float("inf") if seconds is None else time.monotonic() + seconds))
+    """Limit of computing time, after which `time_is_over` is true; compiling does not count.
+
+    None sets none; an earlier outer limit stays.
+    """
+    token = _deadline.set(min(_deadline.get(), float("inf") if seconds is None else TALLY.clock + seconds))
     try:
         yield
     finally:
@@ -78,7 +83,7 @@ def time_limit(seconds: float | None) -> Iterator[None]:
 
 def time_is_over() -> bool:
     """True once the time limit of this work has passed."""
-    return time.monotonic() > _deadline.get()
+    return TALLY.clock > _deadline.get()
 
 
 class Ticker:

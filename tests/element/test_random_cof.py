@@ -116,6 +116,10 @@ def test_the_record_of_it():
         ({"v_0": []}, "a list of velocities"),
         ({"v_0": [[UNIT]]}, "a list of velocities"),
         ({"v_0": 1e-7 * UNIT}, "raise v_0"),
+        (
+            {"case": replace(PUNCH, material=mdr.Prony(3e6, [(3e6, 1e28)], 0.5))},
+            r"1e\+28 s is longer than .* lower it to",
+        ),
         ({"n_realisations": 7}, "n_realisations must be at least 8"),
         ({"n_realisations": 8.0}, "n_realisations must be a whole number"),
         ({"seed": -1}, "seed must be at least 0"),

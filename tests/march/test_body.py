@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 
 import mdr
-from mdr.march.body import body_of, harmonics_of, light_harmonics_of
+from mdr.march.body import body_of, harmonics_of, light_harmonics_of, pushed
 from mdr.march.loop import march, next_place
 from mdr.march.march import Resolution, at_hand
 from mdr.spring.law import law_of
@@ -179,3 +180,23 @@ def test_a_zero_beside_a_kink_is_found_from_afar(at):
             break
         x = float(next_place(x, f(x), 4.0, ends))
     assert_allclose(x, at, rtol=0, atol=1e-13 * (1 + abs(at)) / 1.1e-2)  # over the least slope beside the zero
+
+
+def test_a_pushed_body_is_a_matrix_exponential():
+    """Over- and underdamped, critical, without spring or damper; c and k over many decades."""
+    rng = np.random.default_rng(8)
+    for i in range(300):
+        c, k = 10.0 ** rng.uniform(-12, 1.5), 10.0 ** rng.uniform(-12, 0.5)
+        if i % 4 == 0:
+            c = 2 * np.sqrt(k) * (1 + rng.choice([-1, 0, 1]) * 10.0 ** rng.uniform(-16, -1))
+        c, k = c * (i % 7 > 0), k * (i % 5 > 0)
+        move = expm(np.array([[0, 1, 0, 0], [-k, -c, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]]))
+        expected = [move[0, 1], move[0, 2], move[0, 3], move[0, 0], move[1, 1]]
+        assert_allclose(pushed(c, k), expected, rtol=0, atol=1e-14)
+
+
+def test_a_pushed_body_in_treacle_creeps_and_one_on_a_stiff_spring_rings():
+    assert_allclose(pushed(1e12, 0.0), [1e-12, 1e-12, 0.5e-12, 1.0, 0.0], rtol=1e-11, atol=1e-20)
+    w = 1e3  # way sin(w)/w, and what is left of its integrals
+    expected = [np.sin(w) / w, (1 - np.cos(w)) / w**2, (1 - np.sin(w) / w) / w**2, np.cos(w), np.cos(w)]
+    assert_allclose(pushed(0.0, w**2), expected, rtol=0, atol=1e-14)

@@ -52,6 +52,17 @@ def test_springs_that_keep_contact_answer_with_the_dynamic_modulus(material):
     assert np.all(found.since == 1)
 
 
+def test_a_stiff_arm_that_hardly_relaxes_has_its_mean_at_zero():
+    """Its change over a period, divided by what it forgets, is its distance from there."""
+    theta, material = 1e6, (0.0, (200.0, 30.0, 10.0), (1e6, 2e3, 0.5))
+    law, z = law_of(*material), depth(64)
+    gap = np.linspace(-0.9, 0.99, 40)
+    s = settled(gap, np.ones(40), *z, law).s.copy()
+    before, none = s.copy(), np.empty((0, 40))
+    period(s, gap, np.ones(40), *z, *law, tools_for(law, 2 * np.pi / 64), np.empty((5, 64)), none, none)
+    assert np.abs(s[1] - before[1]).max() * theta / (2 * np.pi) < 1e-7  # 1e-13 in a period is taken for none
+
+
 @pytest.mark.parametrize("gap", [-0.3, 0.6])
 def test_an_elastic_spring_presses_while_the_indenter_is_below_it(gap):
     exact = (np.sin(np.arccos(gap)) - gap * np.arccos(gap)) / np.pi

@@ -7,7 +7,8 @@ import pytest
 
 import mdr
 from mdr.tools import progress as module
-from mdr.tools.progress import Ticker, progress, silent
+from mdr.tools.compiling import TALLY
+from mdr.tools.progress import Ticker, progress, silent, time_is_over, time_limit
 
 
 @pytest.fixture
@@ -72,3 +73,19 @@ def test_a_long_march_says_how_many_periods_are_done(capsys, monkeypatch):
     assert "slide: 4 of 12 periods, about " in capsys.readouterr().err
     mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64)
     assert re.search("^slide, waiting for a steady state: [0-9]+ periods so far$", capsys.readouterr().err, re.M)
+
+
+def test_a_time_limit_leaves_out_what_is_compiled(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    with time_limit(5.0):
+        now[0] += 4.0
+        TALLY.begin()
+        now[0] += 60.0
+        TALLY.begin()
+        TALLY.end()
+        assert not time_is_over()
+        TALLY.end()
+        assert not time_is_over()
+        now[0] += 1.5
+        assert time_is_over()
