@@ -45,7 +45,7 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z in the last period [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
-    cof_error: float  #: estimated bound on the error of either: grid, step and cycle; 2 mu_0 if it has not settled [-]
+    cof_error: float  #: estimated bound on the error of either: grid, step and cycle together, at most 2 mu_0 [-]
     grid_error: float  #: part of the cells: twice what half as many change, or more [-]
     step_error: float  #: part of the time steps: twice what half as many change, or more [-]
     cycle_error: float  #: part of the start: what further periods would change [-]
@@ -126,7 +126,7 @@ class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
     cof_y: Array  #: that of the force across the pull [-]
-    cof_error: Array  #: estimated bound on the numerical error of either; 2 mu_0 where it has not settled [-]
+    cof_error: Array  #: estimated bound on the numerical error of either [-]
     grid_error: Array  #: part of the cells [-]
     step_error: Array  #: part of the time steps [-]
     cycle_error: Array  #: part of the start [-]
@@ -413,7 +413,7 @@ def _record(
     return HalfSpaceRun(
         cof=found.cof,
         cof_y=found.cof_y,
-        cof_error=min(grid + step + rest, 2 * mu_0) if settled else 2 * mu_0,
+        cof_error=min(grid + step + rest, 2 * mu_0),
         grid_error=grid,
         step_error=step,
         cycle_error=rest,

@@ -176,6 +176,13 @@ def test_a_number_of_periods_is_kept_to():
     assert slide(ACROSS, 0.3 * UNIT, n_periods=2, **FEW).n_periods == 2
 
 
+@pytest.mark.parametrize(("case", "start"), [(ACROSS, "full_slip"), (BALL, "rest")])
+def test_a_pull_that_has_hardly_moved_has_not_settled_however_little_changes(case, start):
+    found = slide(case, 1e-7 * UNIT, start=start, n_periods=4, **FEW)
+    assert (found.settled, found.cof_error) == (False, 0.6)
+    assert "still change" in found.why
+
+
 def test_a_time_limit_ends_a_run_unsettled():
     found = slide(ACROSS, 0.3 * UNIT, limit_s=1e-9, **FEW)
     assert (found.settled, found.n_periods, found.kind) == (False, 1, "unsettled")
