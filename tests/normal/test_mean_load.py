@@ -75,7 +75,7 @@ def test_a_body_and_a_tapping_contact_are_held_in_a_march():
     assert_allclose(run.mean_F_z, 5.0, rtol=1e-4)
 
 
-@pytest.mark.parametrize(("cof", "rested", "weighed"), [(0.15, 3.14, 3.08), (0.03, 6.49, 5.96), (0.01, 14.1, 15.5)])
+@pytest.mark.parametrize(("cof", "rested", "weighed"), [(0.03, 6.49, 5.96), (0.01, 14.1, 15.5)])
 def test_the_amplitude_under_a_true_weight(cof, rested, weighed):
     """By hand: a mean depth was sought for each amplitude."""
     for tables, expected in ((HORN, rested), (HELD, weighed)):
