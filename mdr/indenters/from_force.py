@@ -26,8 +26,8 @@ from mdr.tools.checks import FieldError, finite, finite_array, not_negative, pla
 from mdr.tools.csv_table import fault
 from mdr.tools.fields import facts
 
-TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
+TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:

@@ -122,10 +122,16 @@ def held(own: Method, expected: Method) -> Method:
 
 
 def noise_of(x: Array, y: Array) -> float:
-    """About the standard deviation of the noise of y: its median distance from the line through both neighbours."""
-    share = (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
-    off = y[1:-1] - (1 - share) * y[:-2] - share * y[2:]
-    return float(np.median(np.abs(off) / np.sqrt(1 + share**2 + (1 - share) ** 2)) / 0.6745)
+    """About the standard deviation of the noise of y: the median of its fourth differences, over what noise of 1 makes.
+
+    These are how far the distances from the line through both neighbours are from such a line themselves.
+    """
+    s = (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
+    off = y[1:-1] - (1 - s) * y[:-2] - s * y[2:]
+    t = s[1:-1]
+    off = off[1:-1] - (1 - t) * off[:-2] - t * off[2:]
+    shares = (1 - t) * (1 - s[:-2]), 2 * t - 2, 1 + (1 - t) * s[:-2] + t * (1 - s[2:]), -2 * t, t * s[2:]
+    return float(np.median(np.abs(off) / np.sqrt(sum(share**2 for share in shares))) / 0.6745)
 
 
 FEW = 300  #: points through which a spline that follows the noise is found at once; its time goes as their square

@@ -181,8 +181,8 @@ class SplineImage:
 
     def _arcs(self, x: Array) -> Array:
         """∫₀^{π/2} of f', of (r f')' and of f sin t along r = x sin t, (3, n_x)."""
-        total = np.empty((3, x.size))
-        starts = range(0, x.size, AT_ONCE)
+        total, starts = np.empty((3, x.size)), range(0, x.size, AT_ONCE)
+        _ = self._sums  # made before the time of a part is taken
         for i in progress(starts, "image of the profile", "parts") if len(starts) > 1 else starts:
             total[:, i : i + AT_ONCE] = self._some_arcs(x[i : i + AT_ONCE])
         return total
