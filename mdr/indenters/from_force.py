@@ -21,7 +21,7 @@ from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
-from mdr.tools.csv_table import fault
+from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F

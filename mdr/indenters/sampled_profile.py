@@ -16,7 +16,7 @@ from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
-from mdr.tools.csv_table import fault
+from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
