@@ -90,6 +90,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if args.work is None:
         top.print_help(sys.stderr)
         top.exit(Exit.WRONG_INPUT)
+    os.environ["MPLBACKEND"] = "agg"  # pictures go to files alone, whatever the shell names
     args.command = shlex.join(["mdr", *given]).encode("utf-8", "backslashreplace").decode("utf-8")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a letter the terminal lacks must not cost the result

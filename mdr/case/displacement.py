@@ -6,12 +6,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.case.acceleration import sampled
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, positive
 
 UNEVEN = 0.1  #: of a step, which sampled instants may be off a grid
 ORDER = 4  #: of the Butterworth filter
 REACH = 8.0  #: times 1/high_pass, after which the response of the filter is below 1e-8
+ENDS = 1.0  #: times 1/high_pass: what it leaves uncertain at either end of a record
+LEAST = 0.25  #: times 1/high_pass: what must be left between them
 
 
 def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
@@ -44,7 +46,9 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     -----
     The filter is a Butterworth high-pass of fourth order, run forwards and backwards, so that no phase is shifted: it
     multiplies the displacement at the frequency f by 1/(1 + (high_pass/f)⁸). Filter and integration are done on the
-    spectrum. The record counts as zero before and after: within about 1/high_pass of its ends the result is uncertain.
+    spectrum. What moved before the record and after it is not known. Of all that could have, that is taken which leaves
+    the least displacement in the mean square. Within 1/high_pass of the ends the result is uncertain all the same: that
+    of a steady tone f by up to 5 high_pass/f of its amplitude, and by a tenth of that further inside.
 
     Examples
     --------
@@ -73,4 +77,35 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     n = t.size + int(REACH / (high_pass * step)) + 1
     x = np.fft.rfftfreq(n, step) / high_pass
     gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
-    return np.asarray(np.fft.irfft(gain * np.fft.rfft(a - a.mean(), n), n)[: t.size])
+    u = np.fft.irfft(gain * np.fft.rfft(a - a.mean(), n), n)[: t.size]
+    outside = _from_outside(2 * np.pi * high_pass * step * np.arange(t.size))
+    return np.asarray(u - outside @ np.linalg.lstsq(outside, u, rcond=None)[0])
+
+
+def _from_outside(phase: Array) -> Array:
+    """What any acceleration before and after the record moves in it, (n_t, 2 ORDER): decays from either end.
+
+    They are the poles of the filter, 1 + s^8 = 0, those of the left half plane from the first sample on, and the same
+    backwards from the last.
+    """
+    poles = np.exp(1j * np.pi * (np.arange(ORDER // 2) + 0.5 + ORDER / 2) / ORDER)
+    decays = np.exp(np.outer(phase, poles))
+    columns = np.hstack([decays.real, decays.imag])
+    return np.hstack([columns, columns[::-1]])
+
+
+def inner_part(t: Array, high_pass: float) -> slice:
+    """The samples of a record but for its ends, within 1/high_pass, where the displacement above it is uncertain.
+
+    FieldError where they leave too little.
+    """
+    ends, long = ENDS / high_pass, float(t[-1] - t[0])
+    least = (2 * ENDS + LEAST) / long
+    if high_pass < least * (1 - SAME):
+        raise FieldError(
+            f"high_pass = {high_pass:.6g} Hz leaves the displacement uncertain for {ends:.4g} s at either end of the "
+            f"record of {long:.4g} s: give {least:.3g} Hz or more, or a longer record",
+            "high_pass",
+        )
+    first, end = np.searchsorted(t, [t[0] + ends * (1 - SAME), t[-1] - ends * (1 - SAME)])
+    return slice(int(first), int(end))

@@ -47,6 +47,8 @@ def fill_up(record: Any, *names: str) -> int:
 
 REPEATS = 0.99  #: share of the mean square in every nth harmonic, above which depths repeat n times
 GREATEST_SWING = 0.01  #: amplitude of depth [m], above which it is hardly meant
+NO_DEPTH = "amplitude of the depth in m; a depth that does not oscillate is a ConstantDepth"
+NO_LOAD = "amplitude of the load in N; a load that does not oscillate is a ConstantLoad"
 FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$", example=314.159)
 MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$", example=20e-6)
 
@@ -158,7 +160,9 @@ class NormalOscillation(Motion):
     """
 
     u_z0: float = field(metadata=MEAN_DEPTH)
-    du_z: float = field(metadata=facts("m", "amplitude of the depth", label=r"amplitude $\Delta u_z$", example=2e-6))
+    du_z: float = field(
+        metadata=facts("m", "amplitude of the depth", note=NO_DEPTH, label=r"amplitude $\Delta u_z$", example=2e-6)
+    )
     omega: float = field(metadata=FREQUENCY)
 
     def __post_init__(self) -> None:
@@ -212,7 +216,8 @@ class PeriodicMotion(Motion):
     def __post_init__(self) -> None:
         super().__post_init__()
         if not fill_up(self, "cos", "sin"):
-            raise FieldError("cos and sin are all zero: nothing oscillates; give an amplitude in m", "cos")
+            what = "cos and sin are all zero: nothing oscillates; give an amplitude in m, or take ConstantDepth"
+            raise FieldError(what, "cos")
         deepest = self.u_z0 + self.cycle.unit * self.cycle.greatest
         if deepest <= 0:
             raise FieldError(f"u_z = {deepest:.6g} m at its deepest: the indenter never touches; raise u_z0", "u_z0")
@@ -358,7 +363,7 @@ class LoadOscillation(_Load):
 
     F_z0: float = field(metadata=facts("N", "mean load", label="mean load $F_{z0}$", example=0.1))
     dF_z: float = field(
-        metadata=facts("N", "amplitude of the load", label=r"load amplitude $\Delta F_z$", example=0.01)
+        metadata=facts("N", "amplitude of the load", note=NO_LOAD, label=r"load amplitude $\Delta F_z$", example=0.01)
     )
     omega: float = field(metadata=FREQUENCY)
     m_z: float = field(default=0.0, metadata=facts("kg", "mass that the load moves", not_negative))

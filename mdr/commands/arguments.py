@@ -75,6 +75,28 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
+def add_reading(command: argparse.ArgumentParser) -> None:
+    """What the header of a CSV file calls its columns, and the units that it leaves out."""
+    for name, value, what in (
+        ("columns", "head", "what the header calls a column, such as a_x=x; an empty head leaves it out"),
+        ("units", "unit", "unit of a column whose header has none, such as t=ms a_x=g"),
+    ):
+        read = read_as(f"column={value}", _pair)
+        command.add_argument(f"--{name}", metavar=f"column={value}", nargs="+", type=read, default=[], help=what)
+
+
+def reading(args: argparse.Namespace) -> dict[str, dict[str, str]]:
+    """The same as arguments of what reads the file."""
+    return {"columns": dict(args.columns), "units": dict(args.units)}
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals):
+        raise ValueError
+    return name, value
+
+
 def plain_number(unit: str, must_be: str) -> Callable[[str], float]:
     """What argparse reads a number with, in this unit where it has none; it says what the argument must be."""
     return read_as(must_be, lambda text: value_in("it", text, unit))

@@ -7,7 +7,7 @@ from typing import Any
 
 import mdr
 from mdr.case.units import facts_at
-from mdr.commands.arguments import path_of, plain_number, read_as
+from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, reading
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.files.case_files import Said
@@ -29,6 +29,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     share = plain_number("-", "a share, such as 95% or 0.95")
     level = "level of the intervals (default: 0.95)"
     command.add_argument("--confidence", metavar="share", type=share, default=0.95, help=level)
+    add_reading(command)
     add_output(command, "fitted.toml", "fit.png", "fit.svg")
 
 
@@ -38,7 +39,7 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
         raise WrongInput("- stands for the case and for the data: standard input can be read once, give a file for one")
     folder = output_folder(args)
     try:
-        data = mdr.read_friction_data(args.data)
+        data = mdr.read_friction_data(args.data, **reading(args))
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
         found = mdr.fit(asked.case, data, args.free, **knobs)
     except ValueError as fault:

@@ -7,7 +7,8 @@ from dataclasses import asdict
 from typing import Any
 
 import mdr
-from mdr.commands.arguments import path_of, read_as, whole_number
+from mdr.case.displacement import inner_part
+from mdr.commands.arguments import add_reading, path_of, read_as, reading, whole_number
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
 from mdr.files.toml_text import StandardInput
@@ -27,9 +28,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
     high_pass = (
-        "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; both ends of"
+        "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; one of its"
     )
-    high_pass += " the record are off for some of its periods (PeriodicMotion.from_acceleration has no ends)"
+    high_pass += " periods at either end of the record is uncertain and left out"
     command.add_argument(
         "--high-pass",
         metavar="5Hz",
@@ -38,6 +39,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     size = whole_number(2 * MIN_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: 256)")
+    add_reading(command)
     add_output(command, "record.csv", "record.png", "record.svg")
 
 
@@ -47,7 +49,8 @@ def record(args: argparse.Namespace, _: None) -> int:
         raise WrongInput("- stands for the motion and for the case: standard input can be read once, give a file")
     case, folder = mdr.read_case(args.case), output_folder(args)
     try:
-        motion: dict[str, Any] = with_displacements(mdr.read_record(args.motion), args.high_pass, case)
+        recorded = mdr.read_record(args.motion, **reading(args))
+        motion = with_displacements(recorded, args.high_pass, case)
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {str(fault).removeprefix(f'{args.motion}: ')}") from None
@@ -57,11 +60,17 @@ def record(args: argparse.Namespace, _: None) -> int:
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
-    return answer(args, values, str(found), case)
+    whole, kept = (float(t[-1] - t[0]) for t in (recorded["t"], found.t))
+    values["left_out"] = whole - kept
+    ends = (
+        f"\nleft out: {whole - kept:.4g} of {whole:.4g} s, both ends, where the high-pass makes displacements uncertain"
+    )
+    return answer(args, values, f"{found}{ends if kept < whole else ''}", case)
 
 
-def with_displacements(motion: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact) -> dict[str, Array]:
-    """The record with positions and depths [m] in the place of accelerations [m/s²]."""
+def with_displacements(record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact) -> dict[str, Any]:
+    """The record with positions and depths [m] in the place of accelerations [m/s²], without the ends of these."""
+    motion = {**record}
     for axis in "xyz":
         a, u = f"a_{axis}", f"u_{axis}"
         if a not in motion:
@@ -77,4 +86,7 @@ def with_displacements(motion: dict[str, Array], high_pass: float | None, case: 
         raise ValueError(
             "the header names no u_x, which no accelerometer shows; write t [s], u_x [um], u_z [um] or a_z [g]"
         )
-    return motion
+    if motion.keys() == record.keys():
+        return motion
+    inner = inner_part(motion["t"], positive("high_pass", high_pass))
+    return {name: values[inner] for name, values in motion.items()}

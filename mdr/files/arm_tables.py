@@ -8,45 +8,76 @@ from typing import Any
 import numpy as np
 
 from mdr.files.case_files import record_of
+from mdr.files.measurements import LIKELY_MODULUS, Words, read_table
+from mdr.files.relative_moduli import WAY_OUT, are_relative, in_pascals
 from mdr.files.toml_text import parse_toml, read_text, tried
-from mdr.tools.csv_table import Column, fault, table_of
+from mdr.tools.checks import positive
+from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_table import Table, warn_of_size
 from mdr.tools.messages import short
 
-ARMS = (Column("E_j", unit="Pa", bare=True), Column("tau_j", unit="s", bare=True, empty=np.inf))
+#: moduli in Pa, shear moduli in Pa, or shares of the instantaneous modulus
+MODULI = (
+    Column("g_j", ("g_i", "g", "relative modulus", "E_j/E_0", "E_i/E_0", "G_j/G_0", "G_i/G_0"), needed=False),
+    Column("E_j", ("E_i", "modulus"), "Pa", needed=False, bare=True),
+    Column("G_j", ("G_i", "shear modulus"), "Pa", needed=False, bare=True),
+)
+ARMS = (*MODULI, Column("tau_j", ("tau_i", "tau", "τ", "relaxation time"), "s", bare=True, empty=np.inf))
 
 
-def from_table(path: str | PathLike[str], nu: float | None) -> dict[str, Any]:
+def from_table(
+    path: str | PathLike[str], nu: float | None, E_0: float | None, units: Words, columns: Words
+) -> dict[str, Any]:
     """The fields of a Prony in a file."""
     name = fsdecode(path)
+    if E_0 is not None:
+        E_0 = positive("E_0", E_0, "instantaneous modulus in Pa")
     if name.lower().endswith(".toml"):
-        return _from_toml(read_text(path), name, nu)
+        if units or columns:
+            raise fault(name, "units and columns are those of a CSV table")
+        return _from_toml(read_text(path), name, {"nu": nu, "E_0": E_0})
     if not name.lower().endswith(".csv"):
         raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(read_text(path), name), "nu": nu}
+    return {**_from_csv(read_table(path, ARMS, units, columns), nu, E_0), "nu": nu}
 
 
-def _from_csv(text: str, name: str) -> dict[str, Any]:
-    table = table_of(text, name, ARMS)
-    E_inf, arms = 0.0, []
-    for line, E_j, tau_j in zip(table.lines, *(table.values[key].tolist() for key in ("E_j", "tau_j")), strict=True):
-        if not E_j >= 0 or not tau_j > 0:
-            what = f"must have E_j >= 0 Pa and tau_j > 0 s, got {E_j:.6g} Pa and {tau_j:.6g} s"
-            raise fault(f"{name}: line {line}", what)
-        if np.isinf(tau_j):
-            E_inf += E_j
-        else:
-            arms.append((E_j, tau_j))
-    return {"E_inf": E_inf, "arms": tuple(arms)}
+def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
+    kinds = [one.name for one in MODULI if one.name in table.values]
+    if len(kinds) != 1:
+        raise (
+            table.lacks("no E_j", "E_j [MPa], tau_j [s]")
+            if not kinds
+            else table.fault(f"{' and '.join(kinds)}: give one")
+        )
+    (kind,), tau, E = kinds, table.values["tau_j"], table.values[kinds[0]]
+    if not np.all(good := (E >= 0) & (tau > 0)):
+        i, unit = int(np.argmin(good)), "" if kind == "g_j" else " Pa"
+        what = f"must have {kind} >= 0{unit} and tau_j > 0 s, got {E[i]:.6g}{unit} and {tau[i]:.6g} s"
+        raise fault(f"{table.source}: line {table.lines[i]}", what)
+    arms = tau < np.inf
+    E_inf, moduli = None if arms.all() else float(E[~arms].sum()), E[arms].tolist()
+    if E_0 is None and (kind == "g_j" or are_relative(E_inf, moduli)):
+        raise table.fault(f"{WAY_OUT}E_0= in Pa, or write them in Pa, as E_j [MPa]")
+    if E_0 is None:
+        stretch = 2 * (1 + nu) if kind == "G_j" else 1.0
+        E_inf, moduli = stretch * (E_inf or 0.0), [stretch * one for one in moduli]
+    else:
+        try:
+            E_inf, moduli = in_pascals(E_0, E_inf, moduli)
+        except ValueError as refusal:
+            raise table.fault(str(refusal)) from None
+    warn_of_size("the sum of the moduli", E_inf + sum(moduli), LIKELY_MODULUS, "Pa")
+    return {"E_inf": E_inf, "arms": tuple(zip(moduli, tau[arms].tolist(), strict=True))}
 
 
-def _from_toml(text: str, name: str, nu: float | None) -> dict[str, Any]:
-    """The fields in a table [material], or in one without a name."""
+def _from_toml(text: str, name: str, beside: dict[str, float | None]) -> dict[str, Any]:
+    """The fields in a table [material], or in one without a name; what stands `beside` it is taken."""
     content = parse_toml(text, name)
     table = content.get("material", content)
     if isinstance(table, dict):
-        table = {"model": "Prony", **table, **({} if nu is None else {"nu": nu})}
+        table = {"model": "Prony", **table, **{key: one for key, one in beside.items() if one is not None}}
         if table["model"] != "Prony":
             raise fault(name, f'model "{short(str(table["model"]))}" is not Prony')
     material, faults = tried(record_of, "material", table)

@@ -27,7 +27,7 @@ keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a 
 load alone is a ConstantLoad, u_z0 alone a ConstantDepth.
 [shake] is left out where nothing moves in the plane besides the pull; without a name it is an InPlaneMotion where a
 list of amplitudes is given, and else an InPlaneOscillation.
-A Prony material has arms = [[E_j, tau_j], ...].
+A Prony material has arms = [[E_j, tau_j], ...]. With E_0, the instantaneous modulus, they are shares of it.
 
 In the place of a field a file may give what a rig is set to, `mdr.normal.rig.SETTINGS`: frequency [Hz], load [N],
 tan_delta, theta_deg. Beside a load, hold = "load" says that it is the mean over the period, hold = "depth" that it
@@ -53,6 +53,7 @@ from mdr.case import in_plane, motion, pull
 from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.motion import LoadOscillation, NormalOscillation
 from mdr.case.pull import RigidPull, SpringPull
+from mdr.files import relative_moduli
 from mdr.files.own_records import own_records
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
 from mdr.normal.mean_load import hold_of, warn_of_mean_loads
@@ -331,7 +332,8 @@ class _Table:
                 raise CaseFileError("is missing")
             if not isinstance(table, dict):
                 raise CaseFileError(f"must be one table of keys, got {_kind(table)}")
-            return self._describe(self._choose(table), table)
+            record = self._choose(table)
+            return self._describe(record, relative_moduli.material_of(record, table))
 
     def _choose(self, table: Mapping[str, Any]) -> type[Any]:
         """The record that the table names."""
@@ -504,6 +506,7 @@ def _written(table: _Table, record: Any, held: Mapping[str, Any]) -> str:
         way_out = f"keep the case in a script, or use one of {', '.join(writable)}"
         raise CaseFileError(f"[{table.name}] {name}: {_CALLABLE}; {way_out}")
     values = {field: getattr(record, field) for field in fields_of(record)}
+    values = relative_moduli.told(values, type(record))
     spelt = {key: alias for alias in held for key in values if f"{table.name}.{key}" in fields_set(alias)}
     given = {spelt.get(key, key): held.get(spelt.get(key, ""), value) for key, value in values.items()}
     given |= {HOLD: held[HOLD]} if HOLD in held and "load" in given else {}

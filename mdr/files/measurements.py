@@ -6,45 +6,62 @@ lacks, `columns` what it calls a column. Friction over velocity is read in `mdr.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from os import PathLike, fsdecode
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.files.toml_text import read_text
 from mdr.materials.base import poisson_ratio
-from mdr.tools.arrays import EPS, Array
-from mdr.tools.csv_table import Column, Table, fault, table_of
+from mdr.materials.prony_fit import ONE, TOLD, twice
+from mdr.tools.arrays import EPS, SAME, Array
+from mdr.tools.checks import finite
+from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_table import Table, table_of
+from mdr.tools.notation import GRAVITY, ZEROS
+from mdr.tools.warned import warn_outside
 
 Words = Mapping[str, str] | None
 
+LIKELY_MODULUS = (200.0, 2e12)  #: [Pa], from soft gels to beyond diamond
+FASTEST = (0.0, 1e7)  #: acceleration [m/s²], of 100 µm at 50 kHz
+GRAVITY_OFF = 0.02  #: relative error of a mean that is gravity
+SLOWEST = 0.5  #: step [s] from which on a record of acceleration shows no vibration
+WITHIN = 0.5  #: [K], that readings at one temperature may be off it
 PROFILE = (
-    Column("r", ("x", "radius", "position", "distance"), "m"),
-    Column("f", ("h", "z", "height", "profile"), "m"),
+    Column("r", ("x", "radius", "position", "distance"), "m", likely=(1e-10, 1.0)),
+    Column("f", ("h", "z", "height", "profile"), "m", likely=(0.0, 1.0)),
 )
 FORCE = (
-    Column("d", ("depth", "indentation", "displacement"), "m"),
-    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N"),
+    Column("d", ("depth", "indentation", "displacement"), "m", likely=(1e-12, 0.1)),
+    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", likely=(0.0, 1e6)),
 )
 MODULI = (
     Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s"),
-    Column("storage", ("E'", "storage modulus"), "Pa", needed=False),
+    Column("storage", ("E'", "storage modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("loss", ("E''", "loss modulus"), "Pa", needed=False),
-    Column("tan_delta", ("tan(delta)", "tan δ", "tan(δ)", "loss tangent", "loss factor", "damping"), needed=False),
-    Column("G'", ("shear storage modulus",), "Pa", needed=False),
+    Column(
+        "tan_delta",
+        ("tan(delta)", "tan δ", "tan(δ)", "loss tangent", "loss factor", "damping"),
+        needed=False,
+        likely=(0.0, 5.0),
+    ),
+    Column("G'", ("shear storage modulus",), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("G''", ("shear loss modulus",), "Pa", needed=False),
+    Column("T", ("temperature", "temp"), "K", needed=False, likely=(100.0, 2000.0)),
 )
 MOTION = (
     Column("t", ("time",), "s"),
     Column("u_x", ("x",), "m", needed=False),
     Column("u_y", ("y",), "m", needed=False),
-    Column("u_z", ("z", "u", "depth", "displacement"), "m", needed=False),
+    Column("u_z", ("z", "u", "depth", "displacement"), "m", needed=False, likely=(0.0, 0.01)),
     Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
-    Column("a_x", (), "m/s²", needed=False),
-    Column("a_y", (), "m/s²", needed=False),
-    Column("a_z", ("a", "acceleration"), "m/s²", needed=False),
+    Column("a_x", (), "m/s²", needed=False, likely=FASTEST),
+    Column("a_y", (), "m/s²", needed=False, likely=FASTEST),
+    Column("a_z", ("a", "acceleration"), "m/s²", needed=False, likely=FASTEST),
 )
 
 
@@ -64,7 +81,12 @@ def read_table(
 
 
 def read_moduli(
-    path: str | PathLike[str], *, nu: float | None = None, units: Words = None, columns: Words = None
+    path: str | PathLike[str],
+    *,
+    nu: float | None = None,
+    temperature: float | None = None,
+    units: Words = None,
+    columns: Words = None,
 ) -> DynamicModuli:
     r"""Dynamic moduli [Pa] over frequency from a CSV file, for `Prony.fit`.
 
@@ -75,11 +97,14 @@ def read_moduli(
         tan delta: `f [Hz], E' [MPa], tan delta`.
     nu : float, optional
         Poisson's ratio [-]. Only shear moduli need it, columns G' and G'': E = 2 (1 + nu) G.
+    temperature : float, optional
+        Temperature [°C] whose rows are taken, those within 0.5 K, of a file with several in a column T.
     units : dict of str, optional
         Units of columns whose header has none, such as {"omega": "Hz", "storage": "MPa"}.
     columns : dict of str, optional
         What the header calls a column, such as {"storage": "Speichermodul"}; the columns are omega, storage, loss,
-        tan_delta, G' and G''.
+        tan_delta, G', G'' and T. An empty name leaves a column out: {"T": ""} of a master curve, whose frequencies are
+        shifted to one temperature.
 
     Returns
     -------
@@ -110,15 +135,73 @@ def read_moduli(
         stretch = 2 * (1 + poisson_ratio("nu", nu))
     storage, loss = (found.get(name) for name in (("G'", "G''") if of_shear else ("storage", "loss")))
     if storage is None:
-        raise table.fault("the header names no storage modulus; write f [Hz], E' [MPa], E'' [MPa]")
+        raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa]")
     if loss is None and "tan_delta" not in found:
-        raise table.fault("the header names neither E'' nor tan delta; write f [Hz], E' [MPa], tan delta")
+        raise table.lacks("neither E'' nor tan delta", "f [Hz], E' [MPa], tan delta")
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
         _require_rows(table, values > 0, f"{name} must be positive")
+    if loss is not None and "tan_delta" in found:
+        _require_same(table, loss / storage, found["tan_delta"])
     loss = storage * found["tan_delta"] if loss is None else loss
-    _require_rows(table, loss >= 0, "loss must not be negative")
-    order = np.argsort(found["omega"], kind="stable")
-    return DynamicModuli(found["omega"][order], stretch * storage[order], stretch * loss[order])
+    sign = "" if np.any(loss > 0) else "; all are: turn the sign of the column"
+    _require_rows(table, loss >= 0, f"loss must not be negative{sign}")
+    taken = _at_temperature(table, temperature)
+    omega, modulus = found["omega"][taken], stretch * (storage + 1j * loss)[taken]
+    _look_for_repeats(table, taken, omega, modulus, temperature is not None or "T" in (columns or {}))
+    order = np.argsort(omega, kind="stable")
+    return DynamicModuli(omega[order], modulus.real[order], modulus.imag[order])
+
+
+def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]:
+    """The rows of one temperature [°C]. Refused where it must be chosen, or is not there."""
+    if temperature is not None:
+        temperature = finite("temperature", temperature, "in °C")
+    if "T" not in table.values:
+        if temperature is not None:
+            raise table.lacks("no temperature", "f [Hz], T [degC], E' [MPa], E'' [MPa]")
+        return np.arange(len(table.lines))
+    _require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
+    T = table.values["T"] - ZEROS["degC"]
+    known = np.sort(T)
+    there = ", ".join(f"{part.mean():.6g}" for part in np.split(known, np.flatnonzero(np.diff(known) > WITHIN) + 1))
+    if temperature is None:
+        if np.ptp(T) > 2 * WITHIN:
+            example = f"temperature={T[0]:.4g}"
+            master = 'of a master curve, shifted to one, leave the column out, columns={"T": ""}'
+            raise table.fault(f"moduli at several temperatures, {there} degC: choose one, {example}; {master}")
+        return np.arange(T.size)
+    if not np.any(near := np.abs(T - temperature) <= WITHIN * (1 + SAME)):
+        raise table.fault(f"no moduli within {WITHIN:g} K of temperature = {temperature:.6g} degC; there are {there}")
+    return np.flatnonzero(near)
+
+
+def _require_same(table: Table, ratio: Array, tan_delta: Array) -> None:
+    """Refuse loss moduli that are not those of the loss tangent beside them: of either a unit is wrong, or the name."""
+    off = np.abs(ratio - tan_delta) > TOLD * np.abs(tan_delta)
+    if np.mean(off) > 0.5:
+        i = int(np.argmax(off))
+        raise table.fault(
+            f"line {table.lines[i]}: loss/storage is {ratio[i]:.4g}, and tan_delta {tan_delta[i]:.4g}: a unit or a "
+            'name is wrong; correct it, or leave one out, columns={"tan_delta": ""}'
+        )
+
+
+def _look_for_repeats(table: Table, taken: NDArray[np.intp], omega: Array, modulus: Any, is_one: bool) -> None:
+    """Refuse a frequency that has two moduli, or warn of it where the temperature is known to be one."""
+    if not (again := twice(omega, modulus)).size:
+        return
+    i = again[0]
+    near = np.abs(omega / omega[i] - 1) <= ONE
+    j = int(np.argmax(np.where(near, np.abs(modulus - modulus[i]), 0.0)))
+    one, two = sorted((i, j))
+    lines = " and ".join(str(table.lines[taken[k]]) for k in (one, two))
+    values = " and ".join(f"{modulus[k].real:.4g}" for k in (one, two))
+    what = f"lines {lines} have one frequency, {omega[i] / (2 * np.pi):.4g} Hz, and storage moduli {values} Pa"
+    if is_one:
+        warn_outside(f"{table.source}: {what}: give one sample, or the mean")
+    else:
+        column = 'name the column, columns={"T": ...}, and choose one, temperature=20'
+        raise table.fault(f"{what}: if of several temperatures, {column}; else give one, or the mean")
 
 
 def read_record(path: str | PathLike[str], *, units: Words = None, columns: Words = None) -> dict[str, Array]:
@@ -161,8 +244,23 @@ def read_record(path: str | PathLike[str], *, units: Words = None, columns: Word
     """
     table = read_table(path, MOTION, units, columns)
     if len(table.values) < 2:
-        raise table.fault("the header names a time alone; write t [s], a [m/s²], or t [s], u_x [um], u_z [um]")
+        way_out = "write t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
+        raise table.fault(f"the header names a time alone; {way_out}{table.hint}; it is {table.header}")
+    _doubt_units(table.values)
     return table.values
+
+
+def _doubt_units(record: Mapping[str, Array]) -> None:
+    """Warn where gravity, or the pace of the samples, says that an acceleration or the time is in another unit."""
+    with np.errstate(over="ignore"):
+        mean = math.hypot(*(float(np.mean(record[name])) for name in ("a_x", "a_y", "a_z") if name in record))
+    for scale, meant in ((1 / GRAVITY, "g and not m/s²"), (GRAVITY, "m/s² and not g"), (1e3, "mg and not g")):
+        if abs(mean / (scale * GRAVITY) - 1) < GRAVITY_OFF:
+            warn_outside(f"the mean acceleration is {mean:.4g} m/s², and gravity {GRAVITY:.4g}: is it in {meant}?")
+    t = record["t"]
+    if mean and t.size > 2 and float(np.median(np.abs(np.diff(t)))) >= SLOWEST:
+        step = float(np.median(np.diff(t)))
+        warn_outside(f"accelerations at steps of {step:.4g} s: is the time in ms, or the number of the sample?")
 
 
 def profile_points(
@@ -195,6 +293,7 @@ def profile_points(
     return r, f
 
 
+BASELINE = 0.01  #: mean force before the touch, over the greatest, that noise may leave
 FARTHEST_ORIGIN = 3.0  #: first depth over the widest step, to which the point (0, 0) is added
 
 
@@ -210,6 +309,11 @@ def force_points(path: str | PathLike[str], units: Words, columns: Words, touch:
         where = f"{table.source}: line {table.lines[i + 1]}"
         raise fault(where, f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give the loading alone, sorted")
     if touch is not None:
+        base = float(F[d < touch].mean()) if np.any(d < touch) else 0.0
+        if abs(base) > BASELINE * float(F.max()):
+            raise table.fault(
+                f"F is {base:.4g} N before the touch, not 0: take this baseline off the forces of the file"
+            )
         d, F = d[d >= touch] - touch, F[d >= touch]
     if d.size and d[0] < 0:
         raise table.fault(f"d = {d[0]:.6g} m is above the surface; give the depth of the first touch as touch=")

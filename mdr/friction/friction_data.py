@@ -21,13 +21,13 @@ from mdr.files.measurements import read_table
 from mdr.normal.doubts import GREATEST_MU_0
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
-from mdr.tools.csv_table import Column
+from mdr.tools.csv_header import Column
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 from mdr.tools.warned import warn_outside
 
 COLUMNS = (
-    Column("v_0", ("v", "velocity", "speed"), "m/s"),
+    Column("v_0", ("v", "velocity", "speed"), "m/s", likely=(0.0, 100.0)),
     Column("cof", ("mu", "friction", "coefficient of friction", "friction coefficient"), "-"),
     Column("error", ("cof_error", "sigma", "std", "uncertainty"), "-", needed=False),
 )

@@ -23,7 +23,7 @@ from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_as
 from mdr.indenters.shape_check import told_smoothing, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
-from mdr.tools.csv_table import fault
+from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
 FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's

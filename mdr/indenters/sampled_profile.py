@@ -18,7 +18,7 @@ from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.indenters.shape_check import FINE, told_smoothing, why_no_shape
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
-from mdr.tools.csv_table import fault
+from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little

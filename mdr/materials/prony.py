@@ -13,6 +13,7 @@ nu Poisson's ratio [-], constant in time.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike, fsdecode
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -21,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from mdr.materials.base import POISSON, OneBody, poisson_ratio
 from mdr.tools.checks import FieldError, FieldTypeError, not_negative, positive
-from mdr.tools.csv_table import fault
+from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
 Arms = tuple[tuple[float, float], ...]
@@ -144,6 +145,12 @@ class Prony(_WithArms):
         ValueError
             For data that are negative, infinite or NaN.
 
+        Warns
+        -----
+        PlausibilityWarning
+            Where the body misses the moduli by more than 10 %: noise of a dynamic test is below, several temperatures
+            or a wrong unit are above.
+
         Notes
         -----
         Non-negative least squares of the relative deviation (Lawson and Hanson 1974).
@@ -157,7 +164,9 @@ class Prony(_WithArms):
         """
         from mdr.materials import prony_fit
 
-        return cls(*prony_fit.to_data(omega, storage, loss, n_arms), nu=nu)
+        body = cls(*prony_fit.to_data(omega, storage, loss, n_arms), nu=nu)
+        prony_fit.warn_of_misfit(body, omega, storage, loss, n_arms)
+        return body
 
     @classmethod
     def power_law(
@@ -201,17 +210,30 @@ class Prony(_WithArms):
         return cls(*prony_fit.to_power_law(modulus, exponent, omega, error), nu=nu)
 
     @classmethod
-    def read(cls, path: str | PathLike[str], *, nu: float | None = None) -> Prony:
-        """The body of a table of arms (E_j [Pa], tau_j [s]) in a file, .csv or .toml.
+    def read(
+        cls,
+        path: str | PathLike[str],
+        *,
+        nu: float | None = None,
+        E_0: float | None = None,
+        units: Mapping[str, str] | None = None,
+        columns: Mapping[str, str] | None = None,
+    ) -> Prony:
+        r"""The body of a table of arms (E_j [Pa], tau_j [s]) in a file, .csv or .toml.
 
         Parameters
         ----------
         path : str or path-like
             CSV: columns E_j and tau_j under a header that names them and their units (without units, Pa and s); the row
-            with tau_j = inf, or an empty one, is E_inf. TOML: a [material] table with E_inf, arms = [[E_j, tau_j],
-            ...], nu and, if wanted, tau, as in a case file.
+            with tau_j = inf, or an empty one, is E_inf. G_j are shear moduli, g_j shares of the instantaneous modulus.
+            TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted, tau, as in a case file.
         nu : float, optional
             Poisson's ratio [-]. A CSV file needs it; it takes the place of the one in a TOML file.
+        E_0 : float, optional
+            Instantaneous Young's modulus [Pa] of relative moduli, g_j = E_j/E_0, as finite-element programs write
+            them. What their sum lacks of 1 is that of E_inf.
+        units, columns : dict of str, optional
+            Units of columns of a CSV file whose header has none, {"E_j": "MPa"}, and what it calls a column.
 
         Returns
         -------
@@ -221,13 +243,21 @@ class Prony(_WithArms):
         Raises
         ------
         ValueError
-            With the line or key that is wrong.
+            With the line or key that is wrong; for moduli between 0 and 1 whose sum is 1, without E_0.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> import mdr
+        >>> _ = Path("arms.csv").write_text("g_i, tau_i\n0.3, 0.01\n0.2, 1\n")
+        >>> mdr.Prony.read("arms.csv", nu=0.5, E_0=2e6)
+        Prony(E_inf=1000000.0, arms=((600000.0, 0.01), (400000.0, 1.0)), nu=0.5, tau=0.0)
         """
         from mdr.files.arm_tables import from_table
 
         if nu is not None:
             nu = poisson_ratio("nu", nu)
-        fields = from_table(path, nu)
+        fields = from_table(path, nu, E_0, units, columns)
         try:
             return cls(**fields)
         except (TypeError, ValueError) as refusal:

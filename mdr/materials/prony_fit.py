@@ -15,9 +15,12 @@ from numpy.typing import ArrayLike
 from mdr.materials.base import OneBody, arm
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import between, count, finite_array, positive, positive_array
+from mdr.tools.warned import warn_outside
 
 Pairs = tuple[tuple[float, float], ...]
 
+TOLD = 0.1  #: misfit that is told: dynamic tests are good to some 5 %, and one of ten points to twice that
+ONE = 0.01  #: relative difference of frequencies that are one: no passive modulus rises faster than its frequency
 A_DECADE = 3.0  #: arms per decade of frequency, where none were asked for
 MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
 MARGINS = (3.0, 10.0, 100.0, 1000.0)  #: reach of the arms beyond the range, for the rest of a power law
@@ -26,9 +29,8 @@ MARGINS = (3.0, 10.0, 100.0, 1000.0)  #: reach of the arms beyond the range, for
 def to_data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int | None) -> tuple[float, Pairs]:
     """E_inf [Pa] and arms closest to measured moduli."""
     omega, modulus = _data(omega, storage, loss)
-    decades = float(np.log10(omega.max() / omega.min()))
     if n_arms is None:
-        n_arms = max(1, min(round(A_DECADE * decades) + 1, omega.size // 2))
+        n_arms = max(1, min(_usual_arms(omega), omega.size // 2))
     n_arms = count("n_arms", n_arms, 1)
     times = 1 / (
         np.geomspace(omega.min(), omega.max(), n_arms) if n_arms > 1 else np.array([np.sqrt(omega.min() * omega.max())])
@@ -63,9 +65,45 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
 
 def misfit(material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
     """Greatest relative deviation from measured moduli."""
+    return float(_misfits(material, *_data(omega, storage, loss)).max())
+
+
+def warn_of_misfit(
+    material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int | None
+) -> None:
+    """Warn where a fitted body misses the data by more than they are good for, with what may help."""
     omega, modulus = _data(omega, storage, loss)
+    missed = _misfits(material, omega, modulus)
+    k, usual = int(np.argmax(missed)), _usual_arms(omega)
+    if missed[k] <= TOLD:
+        return
+    if twice(omega, modulus).size:
+        way_out = "frequencies repeat with other moduli: give one temperature, mdr.read_moduli(path, temperature=20)"
+    elif (n_arms or omega.size // 2) < usual:
+        way_out = f"n_arms={usual} may come nearer"
+    else:
+        way_out = "no passive body of one temperature has such moduli: is a unit wrong, or a column another quantity?"
+    warn_outside(
+        f"the body misses the moduli by {missed[k]:.0%} at {omega[k]:.4g} rad/s ({omega[k] / (2 * np.pi):.4g} Hz), and "
+        f"by more than {TOLD:.0%} hardly for noise: {way_out}"
+    )
+
+
+def twice(omega: Array, modulus: Any) -> Array:
+    """Places, in the order of frequency, whose frequency the next one has too, with a modulus that differs by TOLD."""
+    order = np.argsort(omega, kind="stable")
+    omega, modulus = omega[order], np.asarray(modulus)[order]
+    differ = np.abs(np.diff(modulus)) > TOLD * np.minimum(np.abs(modulus[1:]), np.abs(modulus[:-1]))
+    return np.asarray(order[:-1][(np.diff(omega) <= ONE * omega[:-1]) & differ])
+
+
+def _misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
     own = np.asarray(material.dynamic_modulus(omega)) * (1 - material.nu**2)
-    return float(np.max(np.abs(own - modulus) / np.abs(modulus)))
+    return np.asarray(np.abs(own - modulus) / np.abs(modulus))
+
+
+def _usual_arms(omega: Array) -> int:
+    return round(A_DECADE * float(np.log10(omega.max() / omega.min()))) + 1
 
 
 def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:

@@ -171,7 +171,11 @@ def rig(
     instance("indenter", indenter, Indenter)
     F_z0 = _load(load, load_grams)
     given = {"load_amplitude": load_amplitude, "depth_amplitude": depth_amplitude, "acceleration": acceleration}
-    amplitudes = {name: positive(name, value) for name, value in given.items() if value is not None}
+    amplitudes = {
+        name: positive(name, value, "leave it out for a shake alone")
+        for name, value in given.items()
+        if value is not None
+    }
     if len(amplitudes) > 1:
         raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
     hold = _held(hold, bool(amplitudes) and load_amplitude is None)

@@ -5,8 +5,9 @@
     0, 0.2, tip
     1, 0.9,
 
-The first line that is no comment names the columns, each with its unit in brackets. They may stand in any order, beside
-others; commas, semicolons or tabs separate them. What is wrong is told with its line, and with what to write instead.
+The first line that is no comment names the columns, each with its unit in brackets (`csv_header`). They may stand in
+any order, beside others; commas, semicolons or tabs separate them. What is wrong is told with its line, and with what
+to write instead.
 """
 
 from __future__ import annotations
@@ -21,10 +22,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.tools.arrays import Array
-from mdr.tools.messages import one_line, short
-from mdr.tools.notation import in_unit, is_number, listed, number_in, scale_of
+from mdr.tools.csv_header import Column, Header, Place, fault
+from mdr.tools.messages import short
+from mdr.tools.notation import UNITS, converted, is_number, number_in, scale_of, shown
+from mdr.tools.warned import warn_outside
 
-_HEAD = re.compile(r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*))?")
+MOST_ABOVE = 99  #: lines above a header, among which it is looked for
 
 
 class Tabled:
@@ -71,27 +74,22 @@ def data_frame(text: str) -> Any:
     return pandas.read_csv(StringIO(text), keep_default_na=False, na_values=["nan"], engine="python")
 
 
-class Column(NamedTuple):
-    """A column that is looked for."""
-
-    name: str  #: in the library
-    names: tuple[str, ...] = ()  #: other names that a header may give it; case, spaces and underscores do not matter
-    unit: str = "-"  #: of the library, a key of `UNITS`
-    needed: bool = True
-    bare: bool = False  #: whether a header without a unit means that of the library
-    empty: float | None = None  #: what an empty cell, or inf, stands for; None refuses them
-
-
 class Table(NamedTuple):
     """The columns that were found."""
 
     source: str  #: name of the file
     values: dict[str, Array]  #: each column (n,) in the unit of the library
     lines: tuple[int, ...]  #: where each row stands in the file
+    header: str = ""  #: its text
+    hint: str = ""  #: to columns that the header may have under other names
 
     def fault(self, what: str) -> ValueError:
         """The error of this file."""
         return fault(self.source, what)
+
+    def lacks(self, name: str, example: str) -> ValueError:
+        """The error of a header that names none of several columns."""
+        return self.fault(f"the header names {name}: {self.header}; write {example}{self.hint}")
 
 
 def table_of(
@@ -107,19 +105,25 @@ def table_of(
     _require_known("units", units, names)
     _require_known("columns", called, names)
     lines = _lines(text, source, columns)
-    separator = max(",;\t", key=lines[0][1].count)
+    separator = _separator(lines, source)
     rows = [cells_of(line, f"{source}: line {number}", separator) for number, line in lines]
-    found = _places(source, rows[0], columns, units or {}, called or {})
-    values: dict[str, list[float]] = {column.name: [] for column, _, _ in found}
+    header = Header(rows[0], columns, units or {}, called or {})
+    try:
+        found = header.places()
+    except ValueError as refusal:
+        raise fault(source, _elsewhere(lines, header) or str(refusal)) from None
+    values: dict[str, list[float]] = {one.column.name: [] for one in found}
     for (number, _), row in zip(lines[1:], rows[1:], strict=True):
         where = f"{source}: line {number}"
         if any(cell.strip() for cell in row[len(rows[0]) :]):
             what = f"has {len(row)} cells, the header {len(rows[0])}; if a comma is the decimal mark, write a point"
             raise fault(where, what)
+        if number == lines[1][0] and (written := _with_units(rows[0], row)):
+            raise fault(where, f"holds units: write them into the header, {', '.join(written)}, and take the line out")
         for column, place, _ in found:
             values[column.name].append(_number(row[place] if place < len(row) else "", column, where))
-    scaled = {column.name: in_unit(np.array(values[column.name]), scale) for column, _, scale in found}
-    return Table(source, scaled, tuple(number for number, _ in lines[1:]))
+    scaled = {one.column.name: _scaled(values[one.column.name], one) for one in found}
+    return Table(source, scaled, tuple(number for number, _ in lines[1:]), header.text, header.left(found))
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:
@@ -135,11 +139,6 @@ def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
         return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
     except csv.Error as wrong:
         raise fault(where, str(wrong)) from None
-
-
-def fault(where: str, what: str) -> ValueError:
-    """The error of one line, whatever the file holds."""
-    return ValueError(one_line(f"{where}: {what}"))
 
 
 # --- lines ---
@@ -161,70 +160,67 @@ def _lines(text: str, source: str, columns: Sequence[Column]) -> list[tuple[int,
 
 def _example(columns: Sequence[Column]) -> str:
     """A header as it is meant."""
-    units = {"m": "um", "m/s": "mm/s", "rad/s": "Hz", "Pa": "MPa"}
-    return ", ".join(
-        one.name + (f" [{units.get(one.unit, one.unit)}]" if one.unit != "-" else "") for one in columns if one.needed
-    )
+    return ", ".join(one.example for one in columns if one.needed)
 
 
-# --- the header ---
+def _separator(lines: Sequence[tuple[int, str]], source: str) -> str:
+    """What cuts header and first row into equally many cells; else what stands most often in the header."""
+
+    def counts(separator: str) -> list[int]:
+        return [len(cells_of(line.rstrip(" ,;\t"), f"{source}: line {n}", separator)) for n, line in lines[:2]]
+
+    several = {one: found for one in ",;\t" if (found := counts(one))[0] > 1}
+    even = [one for one, found in several.items() if found[0] == found[1]]
+    return max(even or several or ",", key=lines[0][1].count)
 
 
-def _places(
-    source: str, cells: list[str], columns: Sequence[Column], units: Mapping[str, str], called: Mapping[str, str]
-) -> list[tuple[Column, int, float]]:
-    """Each column that is there, where it stands, and its unit in that of the library."""
-    heads, found = [_split(cell.strip()) for cell in cells], []
-    text = short(", ".join(cell.strip() for cell in cells), 120)
-    for column in columns:
-        own = called.get(column.name)
-        wanted = {_plain(one) for one in ((own,) if own else (column.name, *column.names))}
-        places = [i for i, (name, _, whole) in enumerate(heads) if {_plain(name), _plain(whole)} & wanted]
-        if len(places) > 1:
-            raise fault(source, f"the header names {column.name} twice: {text}")
-        if places:
-            name, unit, _ = heads[places[0]]
-            written = unit if _plain(name) in wanted else ""
-            found.append((column, places[0], _scale(source, column, written, units.get(column.name))))
-        elif column.needed or own:
-            way_out = "columns= must name one of these" if own else f"write {_example(columns)}"
-            if len(cells) == 1 and not own:
-                way_out = f"columns are separated by commas, semicolons or tabs; {way_out}"
-            raise fault(source, f"the header names no {own or column.name}: {text}; {way_out}")
+def _elsewhere(lines: Sequence[tuple[int, str]], header: Header) -> str:
+    """Where a header stands below the first line, or its units do below it; empty where neither does."""
+    for k, (number, line) in enumerate(lines[: min(MOST_ABOVE, len(lines) - 1)]):
+        separator = _separator(lines[k : k + 2], "")
+        cells, below = (cells_of(one, "", separator) for one in (line, lines[k + 1][1]))
+        written = _with_units(cells, below)
+        for one in (cells, written) if k else (written,):
+            try:
+                Header(one, header.columns, header.units, header.called).places()
+            except ValueError:
+                continue
+            above = (
+                f"line {number} looks like the header: take the lines above it out, or begin them with #" if k else ""
+            )
+            own = f"line {lines[k + 1][0]} holds units: write {', '.join(written)} and take it out" if written else ""
+            return "; ".join(filter(None, (above, own)))
+    return ""
+
+
+def _with_units(cells: Sequence[str], below: Sequence[str]) -> list[str]:
+    """The cells of a header with the units in the row below; empty where that is no row of units."""
+    units = [one.strip(" []()") for one in below]
+    known = {one for unit in UNITS for one in units if one and scale_of(one, unit) is not None}
+    if not known or any(one not in known for one in units if one) or any(map(is_number, known)):
+        return []
+    return [f"{cell.strip()} [{unit}]" if unit else cell.strip() for cell, unit in zip(cells, units, strict=False)]
+
+
+# --- values ---
+
+
+def _scaled(values: Sequence[float], place: Place) -> Array:
+    """The values in the unit of the library; with a warning where their size is hardly meant."""
+    column = place.column
+    found = converted(np.array(values), place.unit or column.unit, column.unit)
+    greatest = float(np.max(np.abs(found[np.isfinite(found)]), initial=0.0))
+    said = f"{column.name}, read in {place.unit}," if place.unit else column.name
+    warn_of_size(said, greatest, column.likely, column.unit)
     return found
 
 
-def _scale(source: str, column: Column, written: str, given: str | None) -> float:
-    """The unit in the header, or the one given beside the file, in that of the library."""
-    name, unit = column.name, column.unit
-    what, scales = "", {one: scale_of(one, unit) for one in (written, given) if one is not None}
-    if given is not None and scales[given] is None:
-        what = f"units: {name} = {short(repr(given))} is none of {listed(unit)}"
-    elif written and scales[written] is None and unit == "-":
-        what = f"{name} is a pure number, got the unit {short(written)!r}"
-    elif written and scales[written] is None:
-        what = f"the unit {short(written)!r} of {name} is none of {listed(unit)}: {_example([column])}"
-    elif written and given is not None and scales[written] != scales[given]:
-        what = f"the header gives {name} in {written}, units= in {given}; give one"
-    elif not (written or given or column.bare or unit == "-"):
-        what = f"{name} needs a unit in its header, one of {listed(unit)}: {_example([column])}"
-    if what:
-        raise fault(source, what)
-    return scales.get(written or given or "") or 1.0  # of a bare column
-
-
-def _split(head: str) -> tuple[str, str, str]:
-    """Name, unit and whole of a head: "r [um]", "r (um)" or "r / um"."""
-    found = _HEAD.fullmatch(head)
-    if found is None:
-        return head, "", head
-    return found["name"], (found["unit"] or found["other"] or "").strip(" ()"), head
-
-
-def _plain(name: str) -> str:
-    """A name without what does not matter in it."""
-    same = {"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "_": "", " ": "", "-": "", "µ": "μ"}
-    return "".join(same.get(letter, letter) for letter in name.casefold())
+def warn_of_size(name: str, greatest: float, likely: tuple[float, float], unit: str) -> None:
+    """Warn of a greatest value that is hardly meant."""
+    low, high = likely
+    if greatest and not low <= greatest <= high:
+        limit = f"below {shown(low, unit)}" if greatest < low else f"above {shown(high, unit)}"
+        warn_outside(f"{name} is at most {shown(greatest, unit)}, {limit}: is the unit right?")
 
 
 def _require_known(name: str, given: Mapping[str, str] | None, known: Sequence[str]) -> None:

@@ -38,8 +38,10 @@ UNITS = {
     "N/m": _prefixed("N/m", "kMmµ") | {"N/mm": 1e3, "N/µm": 1e6},
     "N s/m": _prefixed("N s/m", "kmµ") | {"N s/mm": 1e3},
     "1/m": {"1/m": 1.0, "1/mm": 1e3},
+    "K": {"K": 1.0} | dict.fromkeys(("degC", "°C", "C"), 1.0),
     "-": dict.fromkeys(("", "-", "1"), 1.0) | {"%": 0.01},
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}
+ZEROS = dict.fromkeys(("degC", "°C", "C"), 273.15)  #: what 0 in a unit is in that of the library, where it is not 0
 #: which of them is shown, with a prefix, in the place of the unit of the library
 SHOWN = {"rad/s": "Hz", "rad": "deg", "kg": "g"}
 
@@ -79,7 +81,7 @@ def value_in(name: str, text: str, unit: str, also: str = "") -> float:
     scale = scale_of(symbol or unit, unit)
     if scale is not None and any(one.isdigit() for one in number):
         try:
-            return float(in_unit(number_in(number), scale))
+            return float(converted(number_in(number), symbol or unit, unit))
         except ValueError as wrong:
             raise ValueError(f"{name}: {wrong}") from None
     first, _, others = (listed(unit) + (f", {also}" if also else "")).partition(", ")
@@ -136,6 +138,12 @@ def _instead(text: str) -> str:
     if symbol and is_number(number):
         return f", write {number} and the unit in the header"
     return ""
+
+
+def converted(values: T, symbol: str, unit: str) -> T:
+    """Values in the unit of a symbol that is known, in that of the library."""
+    found, zero = in_unit(values, scale_of(symbol, unit) or 1.0), ZEROS.get(_same(symbol))
+    return found if zero is None else found + zero
 
 
 def in_unit(values: T, scale: float) -> T:

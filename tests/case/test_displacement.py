@@ -5,6 +5,7 @@ from numpy.testing import assert_allclose
 from scipy import signal
 
 import mdr
+from mdr.case.displacement import inner_part
 
 
 def burst(t, f=100.0, width=0.05):
@@ -32,6 +33,18 @@ def test_the_filter_is_butterworth_run_both_ways():
     expected = signal.sosfiltfilt(sos, u)
     assert np.abs(expected - u).max() > 0.1 * 2e-6
     assert_allclose(mdr.displacement_of(t, a, high_pass=20.0), expected, rtol=0, atol=1e-4 * 2e-6)
+
+
+def test_a_tone_that_is_cut_off_swings_as_the_tone():
+    """Inside to (1/2) high_pass/f of its amplitude, and at the ends to ten times that, as the docstring says."""
+    rng, hp = np.random.default_rng(4), 5.0
+    for f in 10 ** rng.uniform(np.log10(4 * hp), np.log10(100 * hp), 20):
+        t = np.arange(int(rng.uniform(0.5, 2.0) * 5000)) / 5000
+        phase = 2 * np.pi * f * t + rng.uniform(0, 2 * np.pi)
+        a = -((2 * np.pi * f) ** 2) * np.cos(phase)
+        off = np.abs(mdr.displacement_of(t, a + 9.81, high_pass=hp) - np.cos(phase))
+        assert off[inner_part(t, hp)].max() < 0.5 * hp / f
+        assert off.max() < 5.5 * hp / f
 
 
 def test_drift_is_left_out_and_the_middle_of_a_tone_is_right():

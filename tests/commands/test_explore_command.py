@@ -38,7 +38,7 @@ def server(monkeypatch):
         stop=lambda: said.append("stops"),
         io_loop=SimpleNamespace(start=wait),
     )
-    monkeypatch.setattr("mdr.explorer.server.server_of", lambda case, port: (one, f"http://127.0.0.1:{port}/"))
+    monkeypatch.setattr("mdr.explorer.server.server_of", lambda case, port, _: (one, f"http://127.0.0.1:{port}/"))
     return said
 
 
@@ -54,6 +54,43 @@ def test_it_opens_no_browser_and_speaks_to_machines_where_asked(capsys, server):
     assert main(["explore", "--no-browser", "--json", "--port", "5100"]) == 0
     assert json.loads(capsys.readouterr().out)["address"] == "http://127.0.0.1:5100/"
     assert "shows /" not in server
+
+
+@pytest.mark.parametrize(
+    ("given", "address"),
+    [("localhost:8080", "http://localhost:8080/"), ("http://10.0.0.7:81/", "http://10.0.0.7:81/"),
+     ("https://lab.example", "https://lab.example/"), ("8080", "http://localhost:8080/")],
+)  # fmt: skip
+def test_behind_a_tunnel_it_prints_the_address_there(capsys, server, given, address):
+    assert main(["explore", "--port", "5100", "--address", given]) == 0
+    assert capsys.readouterr().out.startswith(f"mdr explore: {address}, served at http://127.0.0.1:5100/")
+    assert "shows /" not in server  # no browser here knows that address
+
+
+@pytest.mark.parametrize("given", ["8080:", "ftp://x", "http://", "localhost:99999"])
+def test_an_address_that_is_none_is_refused(capsys, given):
+    with pytest.raises(SystemExit, match="2"):
+        main(["explore", "--address", given])
+    assert "must be localhost:8080" in capsys.readouterr().err
+
+
+def test_a_page_by_another_address_is_let_in_where_it_is_named(capsys):
+    pytest.importorskip("panel")
+    from bokeh.server.util import check_allowlist
+
+    from mdr.explorer.server import in_own_words, server_of
+
+    for address, let_in in (("", False), ("http://localhost:8080/", True)):
+        server, own = server_of(contact("flat"), 0, address)
+        origins = server._tornado.websocket_origins
+        assert check_allowlist("localhost:8080", origins) is let_in
+        assert check_allowlist(own.strip("/").removeprefix("http://"), origins)
+        server.stop()
+    refused = "Refusing websocket connection from Origin '%s'; use --allow-websocket-origin=%s"
+    parts = ("http://localhost:8080", "localhost:8080")
+    assert not in_own_words(logging.LogRecord("bokeh", 40, "", 0, refused, parts, None))
+    assert "start with --address http://localhost:8080" in capsys.readouterr().err
+    assert in_own_words(logging.LogRecord("bokeh", 40, "", 0, "something else", (), None))
 
 
 def test_a_wrong_file_is_status_2(capsys, tmp_path):

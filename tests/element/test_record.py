@@ -2,6 +2,9 @@
 
 import contextlib
 import json
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -251,12 +254,16 @@ def test_the_command_integrates_accelerations(tmp_path, capsys):
     line = written(tmp_path, csv_text({"t [ms]": 1e3 * t, "a_x [g]": a_x / 9.80665, "a_z [m/s²]": a_z}))
     assert main([*line, "--high-pass", "0.005kHz", "--json", "--n-springs", "64"]) == 0
     printed = json.loads(capsys.readouterr().out)
-    found = mdr.slide_record(BALL, ELASTIC, MU_0, t, x, u_z=20e-6 + z, n_springs=64)
+    inner = slice(800, 3201)  # but for a period of the high-pass at either end
+    found = mdr.slide_record(BALL, ELASTIC, MU_0, t[inner], x[inner], u_z=20e-6 + z[inner], n_springs=64)
     assert abs(found.cof) > 1e-3
+    assert printed["left_out"] == pytest.approx(0.4)
     assert_allclose([printed["cof"], printed["mean_F_z"]], [found.cof, found.mean_F_z], rtol=1e-6, atol=1e-8)
     for change, words in [
         ([], "a_x is an acceleration: give the frequency above which it counts, --high-pass 5Hz"),
-        (["--high-pass", "5"], "SlideRecord of 4001 samples"),
+        (["--high-pass", "5"], "SlideRecord of 2401 samples"),
+        (["--high-pass", "5"], "left out: 0.4 of 1 s, both ends"),
+        (["--high-pass", "2"], "uncertain for 0.5 s at either end of the record of 1 s: give 2.25 Hz or more"),
         (["--high-pass", "5mm"], "must be a frequency such as 5Hz, got '5mm'"),
         (["--high-pass", "-1Hz"], "must be a frequency"),
         (["--high-pass", "3kHz"], "half of the sampling rate"),
@@ -264,6 +271,26 @@ def test_the_command_integrates_accelerations(tmp_path, capsys):
         with contextlib.suppress(SystemExit):
             main([*line, *change])
         assert words in "".join(capsys.readouterr())
+
+
+def test_a_backend_that_matplotlib_lacks_is_no_fault_of_the_case(tmp_path):
+    line = written(tmp_path, "t [ms], u_x [um], u_z [um]\n0,0,20\n1,1,20\n2,0,20\n")
+    command = [sys.executable, "-m", "mdr", *line, "--n-springs", "32", "-o", str(tmp_path / "out")]
+    ended = subprocess.run(command, env={**os.environ, "MPLBACKEND": "foo"}, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stderr
+    assert (tmp_path / "out" / "record.png").exists()
+
+
+def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
+    """Those of an accelerometer, x and z in g without a unit; a temperature T is left alone."""
+    rows = "\n".join(f"{k},{np.cos(0.2 * k):.6f},{np.sin(0.3 * k):.6f},25" for k in range(2001))
+    line = [*written(tmp_path, f"time,x,z,T\n{rows}\n"), "--high-pass", "10Hz", "--n-springs", "32"]
+    assert main(line) == 2
+    assert "u_x needs a unit" in capsys.readouterr().err
+    assert main([*line, "--columns", "a_x=x", "a_z=z", "--units", "t=ms", "a_x=g", "a_z=g"]) == 0
+    assert "left out: 0.2 of 2 s" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match="2"):
+        main([*line, "--units", "t"])
 
 
 @pytest.mark.parametrize(

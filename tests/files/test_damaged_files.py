@@ -109,6 +109,7 @@ def read(kind, path):
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
+            warnings.simplefilter("ignore", mdr.PlausibilityWarning)  # of a unit
             record = reader(path)
     except error as refusal:
         for line in str(refusal).splitlines() if isinstance(refusal, CaseFileError) else [str(refusal)]:

@@ -1,6 +1,8 @@
 """Moduli, their ratio, the response to a frequency, and what a material refuses."""
 
 import math
+import re
+import warnings
 
 import numpy as np
 import pytest
@@ -183,6 +185,54 @@ def test_tables_of_arms(tmp_path):
     text = "E_inf = 1e6\narms = [[2e6, 0.01]]\nnu = 0.3\n"
     case.write_text(text, encoding="utf-8")
     assert mdr.Prony.read(case, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)  # the ratio beside a table is taken
+
+
+def test_a_fit_that_misses_says_what_may_help():
+    """Several temperatures, too few arms, and data of no passive body; arms with noise of 3 % are silent."""
+    true, omega = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3), np.geomspace(1e-2, 1e4, 61)
+    E = np.asarray(true.dynamic_modulus(omega)) * (1 - 0.09)
+    noisy = E * (1 + 0.03 * np.random.default_rng(5).normal(size=61))
+    for data, n_arms, words in [
+        ((omega, noisy), None, None),
+        ((omega, E), 1, "misses the moduli by .* n_arms=19 may come nearer"),
+        ((np.tile(omega, 2), np.concatenate([E, E / 5])), None, r"frequencies repeat .* temperature=20"),
+        ((omega, E[::-1]), None, "no passive body"),
+    ]:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            mdr.Prony.fit(data[0], data[1].real, data[1].imag, nu=0.3, n_arms=n_arms)
+        assert [bool(re.search(words, str(one.message))) for one in told] == [True] if words else not told
+
+
+def test_relative_moduli_are_known_by_their_form(tmp_path):
+    """Shares at random, rounded to three digits, are refused without E_0; moduli in pascals are read."""
+    rng, path = np.random.default_rng(2), tmp_path / "arms.csv"
+    for n in range(1, 31):
+        tau, shares = np.geomspace(1e-4, 1e4, n), rng.dirichlet(np.ones(n + 1)).round(3)
+        rest = [f"{shares[-1]}, inf"] if n % 2 else []
+        for scale, E_0 in ((1.0, 3e6), (10 ** rng.uniform(3, 9), None)):
+            rows = [f"{scale * g}, {t}" for g, t in zip(shares, tau, strict=False)]
+            path.write_text("\n".join(["E_j, tau_j", *rows, *(rest if E_0 else [f"{scale}, inf"])]) + "\n")
+            if E_0:
+                with pytest.raises(ValueError, match=r"shares of the instantaneous modulus: give E_0= in Pa"):
+                    mdr.Prony.read(path, nu=0.5)
+            body = mdr.Prony.read(path, nu=0.5, E_0=E_0)
+            assert_allclose([E for E, _ in body.arms], (E_0 or scale) * shares[:-1], rtol=1e-12)
+            if E_0:
+                assert_allclose(body.instantaneous_modulus * 0.75, E_0, rtol=1e-2)
+
+
+def test_a_case_of_one_pascal_reads_back():
+    """Its file says the unit, so that it is not taken for shares."""
+    motion = mdr.NormalOscillation(20e-6, 2e-6, 300.0)
+    for body in (mdr.Prony(0.25, [(0.75, 1.0)], 0.5), mdr.StandardLinearSolid(0.5, 0.5, 1e-3, 0.5)):
+        case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), body, 0.5, motion)
+        text = mdr.write_case(case)
+        assert mdr.parse_case(text) == case
+        with pytest.raises(mdr.CaseFileError, match=r'\[material\] moduli between 0 and 1 .* E_0 = "3 MPa"'):
+            mdr.parse_case(text.replace('" Pa"', "").replace('"0.25 Pa"', "0.25").replace('"0.5 Pa"', "0.5"))
+        scaled = mdr.parse_case(text.replace('"0.25 Pa"', "0.25\nE_0 = 2e6").replace('"0.5 Pa"', '0.5\nE_0 = "2 MPa"'))
+        assert_allclose(scaled.material.instantaneous_modulus * 0.75, 2e6)
 
 
 def test_as_many_arms_as_asked_for():

@@ -5,7 +5,8 @@ import sys
 import numpy as np
 import pytest
 
-from mdr.tools.csv_table import Tabled, cells_of, csv_text, fault
+from mdr.tools.csv_header import fault
+from mdr.tools.csv_table import Tabled, cells_of, csv_text
 
 
 @pytest.mark.parametrize(

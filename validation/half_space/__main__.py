@@ -23,13 +23,18 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"half_space: {fault}", file=sys.stderr)
         return 2
     errors = {"step": found.step_error, "grid": found.grid_error, "cycles": found.cycle_error}
-    answer = {"cof": found.cof, "mean_F_x": found.mean_F_x, "mean_F_z": found.mean_F_z, "converged": True}
+    names = ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")
+    answer = {**{name: getattr(found, name) for name in names}, "converged": True}
     return _told(args, {**answer, "errors": errors}, 0)
 
 
 def _told(args: argparse.Namespace, answer: dict[str, object], status: int) -> int:
     if args.json:
-        print(json.dumps({**dict.fromkeys(("cof", "mean_F_x", "mean_F_z", "errors")), **answer}, indent=1))
+        print(
+            json.dumps(
+                {**dict.fromkeys(("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z", "errors")), **answer}, indent=1
+            )
+        )
         return status
     for name, value in answer.items():
         for label, one in value.items() if isinstance(value, dict) else [("", value)]:
