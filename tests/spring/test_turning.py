@@ -133,3 +133,14 @@ def test_slip_ends_where_the_top_turns_back_whatever_is_across():
         springs = np.array([-1.0]), np.array([1.0]), np.ones((1, 1)), e / np.hypot(*e)
         end = stepped(law, springs, (-2 * bend * turn, bend), (across * rng.uniform(-1, 1), 0.0), z_1=0.0)[2]
         assert end[0, 0] == pytest.approx(-1 + bend * (H - turn) ** 2, abs=1e-8)  # of the square of the way across
+
+
+def test_what_relaxes_with_its_limit_does_not_slip():
+    """At the rim, with arms stretched like the spring, under a top that rests: force and limit fall alike."""
+    law, excess, rng = law_of(0.25, (0.5,), (1.0,)), 1e-9, np.random.default_rng(2)
+    gap, _, s, _ = some_springs(law, rng)
+    s[1] = 0.99 * s[0]
+    angle = rng.uniform(0, 2 * np.pi, gap.size)
+    e = (1 + excess) * np.concatenate([s * np.cos(angle), s * np.sin(angle)])
+    _, _, after = stepped(law, (gap, np.full(gap.size, 1 / gap.size), s, e), (0.0, 0.0), (0.0, 0.0), h=0.5, z_1=0.0)
+    assert_allclose(after[::2], e[::2], rtol=0, atol=2 * excess * s.max())  # the excess alone is shed
