@@ -170,6 +170,8 @@ class ContactElement(Record):
         K is a one-sided difference of second order of the step itself, of each spring for itself and so near that it
         does not switch: its error is some 1e-8 of the stiffness. What a spring does within 2e-9 of u_z_max, or of
         mu_0 kappa u_z_max in the plane, counts as here; nearer still after a way below 1e-4 of these.
+        In a step that is long beside the times of arms the force itself jumps where springs go from stick to slip, by
+        the error of the step; K is then no more than the stiffness at once.
 
         A state is refused that is not finite, of another element (its last number is a mark of the springs), or
         impossible: compressions that the depth or u_z_max forbids, extensions that an elastic contact cannot bear.

@@ -216,10 +216,13 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
             looks_ahead(own_s, own_e, z_0, way, j, near, one, T, modes, arms, tools, alone)
             if look < NEARER:
                 done = w * bends(alone.F, 0) <= even * abs(near / d)
-            if done or (look >= NEARER and np.abs(alone.F[2] - alone.F[1]).max() <= stiffest * abs(near)):
+            change, most = np.abs(alone.F[2] - alone.F[1]).max(), stiffest * abs(near)
+            if done or (look >= NEARER and change <= most):
                 break
+        part = min(1.0, most / change) if change > 0.0 else 1.0
         for k in range(3):
-            K[k, j] += w * (slope(alone.F, k, 0, near) if done else (alone.F[2, k, 0] - alone.F[1, k, 0]) / near)
+            beyond = part * (alone.F[2, k, 0] - alone.F[1, k, 0]) / near
+            K[k, j] += w * (slope(alone.F, k, 0, near) if done else beyond)
 
 
 @_jit

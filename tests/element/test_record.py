@@ -328,3 +328,31 @@ def test_a_million_steps_tell_how_far_they_are(monkeypatch, capsys):
     t = np.arange(1000.0)
     mdr.slide_record(BALL, ELASTIC, MU_0, t, 1e-6 * np.sin(t), u_z=1e-5, n_springs=32)
     assert "slide_record: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("shape", [mdr.Paraboloid(R=5e-3), mdr.FlatPunch(a=1e-3)], ids=["ball", "punch"])
+def test_a_record_that_begins_with_a_lift_or_in_the_air_has_numbers_alone(shape):
+    """Lifted straight up, moved across later: a dashpot with arms; and nothing touches at the first samples."""
+    material, d = mdr.Prony(E_inf=2e6, arms=((1e6, 2e-3),), nu=0.3, tau=5e-4), 1e-5
+    for dt in (1e-4, 1e-2):
+        for z in ((1, 0.4, 1, 1), (-1, -0.5, 1, 1)):
+            found = mdr.slide_record(
+                shape,
+                material,
+                0.5,
+                dt * np.arange(4),
+                [0, 0, d, 2 * d],
+                [0, 0, d / 2, 0],
+                u_z=d * np.array(z),
+                n_springs=32,
+            )
+            numbers = [
+                found.cof,
+                found.cof_y,
+                found.cof_error,
+                found.energy_balance.lost,
+                *found.running_cof,
+                *found.F_y,
+            ]
+            assert np.all(np.isfinite(numbers))
+            assert found.running_cof[0] == 0

@@ -161,3 +161,14 @@ def test_a_step_in_which_a_spring_is_let_go_is_the_sum_of_its_parts(law):
             area += part.area_x, part.area_y
         assert_allclose([of.area_x, of.area_y], area, atol=3e-5 * H)
         assert_allclose(end, e, atol=4e-4)
+
+
+def test_what_relaxes_with_its_limit_does_not_slip():
+    """At the rim, with arms stretched like the spring, under a top that rests: force and limit fall alike."""
+    law, excess, rng = law_of(0.25, (0.5,), (1.0,)), 1e-9, np.random.default_rng(2)
+    gap, _, s, _ = some_springs(law, rng)
+    s[1] = 0.99 * s[0]
+    angle = rng.uniform(0, 2 * np.pi, gap.size)
+    e = (1 + excess) * np.concatenate([s * np.cos(angle), s * np.sin(angle)])
+    _, _, after = stepped(law, (gap, np.full(gap.size, 1 / gap.size), s, e), (0.0, 0.0), (0.0, 0.0), h=0.5, z_1=0.0)
+    assert_allclose(after[::2], e[::2], rtol=0, atol=2 * excess * s.max())  # the excess alone is shed
