@@ -225,7 +225,7 @@ def _drawn(case: SlidingContact, spectrum: Spectrum, slowest: float) -> _Drawn:
     if n_t > MOST_SAMPLES and relaxation > pull:
         raise ValueError(
             f"a relaxation time of {relaxation:.6g} s is longer than histories of {MOST_SAMPLES} samples are: lower it "
-            f"to {SLOW * spectrum.correlation_time:.3g} s, {SLOW} times that of correlation, about whose mean it relaxes"
+            f"to {SLOW * spectrum.correlation_time:.3g} s, {SLOW} times that of correlation: it relaxes about a mean"
         )
     if n_t > MOST_SAMPLES:
         raise ValueError(

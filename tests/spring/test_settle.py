@@ -52,15 +52,15 @@ def test_springs_that_keep_contact_answer_with_the_dynamic_modulus(material):
     assert np.all(found.since == 1)
 
 
-def test_a_stiff_arm_that_hardly_relaxes_has_its_mean_at_zero():
-    """Its change over a period, divided by what it forgets, is its distance from there."""
-    theta, material = 1e6, (0.0, (200.0, 30.0, 10.0), (1e6, 2e3, 0.5))
-    law, z = law_of(*material), depth(64)
-    gap = np.linspace(-0.9, 0.99, 40)
-    s = settled(gap, np.ones(40), *z, law).s.copy()
-    before, none = s.copy(), np.empty((0, 40))
-    period(s, gap, np.ones(40), *z, *law, tools_for(law, 2 * np.pi / 64), np.empty((5, 64)), none, none)
-    assert np.abs(s[1] - before[1]).max() * theta / (2 * np.pi) < 1e-7  # 1e-13 in a period is taken for none
+def test_stiff_arms_that_hardly_relax_have_their_mean_at_zero():
+    """The change of an arm over a period, divided by what it forgets, is its distance from there."""
+    law, z = law_of(0.0, (80.0, 20.0, 60.0, 30.0, 50.0), (1e6, 2e5, 4e4, 1e3, 6e2)), depth(64)
+    gap, w, none = np.linspace(-0.9, 0.99, 40), np.ones(40), np.empty((0, 40))
+    found = settled(gap, w, *z, law).s
+    s = found.copy()
+    period(s, gap, w, *z, *law, tools_for(law, 2 * np.pi / 64), np.empty((5, 64)), none, none)
+    off = (s - found)[1:] / -np.expm1(-2 * np.pi * law.arms.rate)[:, None]
+    assert np.abs(off).max() < 5e-8  # a change of 1e-13 of s in a period is none: 3e-8 of the slowest arm
 
 
 @pytest.mark.parametrize("gap", [-0.3, 0.6])
