@@ -9,7 +9,7 @@ import sys
 import time
 from contextlib import contextmanager
 
-PATIENCE = 600.0  #: s, until a wait is given up: the server may compile, on a machine that is busy
+PATIENCE = 240.0  #: s, until a wait is given up: the server may compile, on a machine that is busy
 FLAGS = (
     "headless=new", "no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
     "disable-component-update", "disable-sync", "disable-dev-shm-usage", "window-size=1400,1300",
@@ -113,10 +113,8 @@ class Browser:
         from selenium.webdriver.common.keys import Keys
 
         box = self.inside(named("box", path), "input")
-        box.send_keys(
-            Keys.CONTROL + "a" + Keys.NULL
-        )  # emptied first it would be a change: the answer may overwrite the text
-        box.send_keys(text + Keys.ENTER)
+        # typed over what stands there: to empty the box first would be a change, whose answer may overwrite the text
+        box.send_keys(Keys.CONTROL + "a" + Keys.NULL + text + Keys.ENTER)
 
     def move(self, path, steps):
         from selenium.webdriver.common.keys import Keys
