@@ -66,7 +66,8 @@ def shaken_pulls():
         oscillation = replace(like.oscillation, u_z0=MOTIONS[motion] * like.oscillation.du_z)
         case = replace(like, material=MATERIALS[name], oscillation=oscillation)
         found = average_friction(ShakenPull.of(case), [0.0, 0.4])
-        yield f"shaken pull, {name}, {motion}", np.concatenate([found[0], found[2]]).tolist()
+        yield f"shaken pull, {name}, {motion}", found[0].tolist()
+        yield f"share of stick, {name}, {motion}", found[2].tolist()
 
 
 def searches():

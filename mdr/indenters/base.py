@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.chebyshev_panels import Chart
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.shape_check import AGREE, FINE, GRID, bends_down, held, real, why_no_shape
+from mdr.indenters.mapping.shape_check import AGREE, FINE, GRID, bends_down, held, real, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, plain, positive_array
 from mdr.tools.fields import Record

@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
+from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
-from mdr.indenters.shape_check import told_smoothing, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault

@@ -14,8 +14,8 @@ import numpy as np
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
+from mdr.indenters.mapping.shape_check import FINE, told_smoothing, why_no_shape
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
-from mdr.indenters.shape_check import FINE, told_smoothing, why_no_shape
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
 from mdr.tools.csv_header import fault

@@ -276,8 +276,8 @@ def sticks(e_0, e, i, w, top, R, t, k, tol, T, arms, tools, look):
 @_inline
 def remembered(e, i, p, p_fast, q, t, k, keep, tools, arms):
     """What the arms of spring i, held on p t + q t² for a time t, come to: the sums of rho_j e_j, of rho_j e_j/theta_j,
-    and the mean of the latter over the time. Fast arms, of theta_j < h, are held on p_fast t + q t², and their sum
-    changes evenly. keep: True stores what they come to.
+    and the mean of the latter over the time. Fast arms, of theta_j < h, are held on p_fast t + q t². keep: True stores
+    what they come to.
     """
     of = tools.held[k]
     one = two = mean = 0.0j
@@ -290,7 +290,7 @@ def remembered(e, i, p, p_fast, q, t, k, keep, tools, arms):
             put(e, 1 + j, i, after)
         one += arms.rho[j] * after
         two += arms.rho[j] * rate * after
-        mean += rate * (0.5 * arms.rho[j] * (before + after) if is_fast else area * (1.0 / t))
+        mean += rate * area * (1.0 / t)
     return one, two, mean
 
 

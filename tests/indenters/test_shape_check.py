@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.indenters.shape_check import why_no_shape
+from mdr.indenters.mapping.shape_check import why_no_shape
 
 R, E_STAR = 5e-3, 2e6
 D = np.geomspace(1e-9, 4e-5, 300)

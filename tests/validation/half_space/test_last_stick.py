@@ -33,7 +33,7 @@ def test_the_command(tmp_path, capsys):
     few = [str(file), "--v-0", str(V), "--cells", "17", "--steps", "16", "--json"]
     assert main(few) == 0
     told = json.loads(capsys.readouterr().out)
-    assert set(told) == {"cof", "mean_F_x", "mean_F_z", "converged", "errors"}
+    assert set(told) == {"cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z", "converged", "errors"}
     assert told["converged"] is True
     assert 0 < told["cof"] < 0.3
     assert all(0 <= error < 0.01 for error in told["errors"].values())
