@@ -332,7 +332,7 @@ def test_a_record_that_begins_with_a_lift_or_in_the_air_has_numbers_alone(shape)
 
 
 def test_a_load_in_steps_that_are_short_for_a_dashpot_has_a_depth():
-    """With a dashpot a thousand times stiffer than the spring a depth, good to its last bit, misses the load by more."""
+    """A dashpot a thousand times stiffer than the spring: a depth, good to its last bit, misses the load by more."""
     rng = np.random.default_rng(1)
     for _ in range(10):
         t = np.cumsum(10.0 ** rng.uniform(-6, -2, 20))
