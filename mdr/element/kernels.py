@@ -295,6 +295,10 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial,
                 stiff += pressed * arms.rho[j] * tools.held[0, 1, j] / h
         if stiff > 0.0:
             after = x - off / stiff
+            if (
+                after == x
+            ):  # met to the rounding of the depth, which a dashpot over a short step is stiff enough to show
+                break
         else:  # nothing touches
             wider *= 2.0
         x = after if low < after < high else 0.5 * (low + high)
