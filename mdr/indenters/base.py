@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.chebyshev_panels import Chart
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.mapping.shape_check import AGREE, FINE, GRID, bends_down, held, real, why_no_shape
+from mdr.indenters.mapping.shape_check import AGREE, FINE, GRID, bends_down, finite_answer, held, real, why_no_shape
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, plain, positive_array
 from mdr.tools.fields import Record
@@ -36,8 +36,6 @@ SAMPLES = 2048  #: heights among which a step, or a dip, stands out
 WARNED = 1e-3  #: share of F_N up to which it may be off where a warning tells of a kink that is not named
 COARSE = 1e-11  #: of d, by which g(a) misses it: more than the rounding of a where g is smooth
 HOOKS = {"profile_3d": "_f", "profile_1d": "_g", "profile_area": "_area"}  #: what computes each, unchecked
-
-
 HELD = {"contact_radius", "force", "stiffness"}  #: what is compared with what follows from g, in a class of a user
 
 
@@ -54,6 +52,8 @@ class Indenter(Record, ABC):
         if not cls.__module__.startswith(__package__ + "."):  # the tests hold those to it
             for name in HELD & vars(cls).keys():
                 setattr(cls, name, held(vars(cls)[name], getattr(Indenter, name)))
+        if "contact_radius" in vars(cls):
+            cls.contact_radius = finite_answer(cls.contact_radius)  # type: ignore[method-assign]
         cls._gives_g = cls._g is not Indenter._g
         if not cls._gives_g and cls._f is Indenter._f:
             raise TypeError(f"{cls.__name__} is no shape yet: give it profile_3d(r) or profile_1d(x)")
@@ -82,6 +82,7 @@ class Indenter(Record, ABC):
         """Depth [m] from which the contact is a full disc: 0 but for a hollow shape, which begins as a ring."""
         return 0.0
 
+    @finite_answer
     def profile_3d(self, r: ArrayLike) -> Array:
         """Height f(r) of the shape above its tip [m].
 
@@ -102,6 +103,7 @@ class Indenter(Record, ABC):
         """
         return plain(self._f(self._within(finite_array("r", r, "m"))))
 
+    @finite_answer
     def profile_1d(self, x: ArrayLike) -> Array:
         """Height g(x) of the one-dimensional image of the shape [m], even in x.
 
@@ -163,6 +165,7 @@ class Indenter(Record, ABC):
             self._refuse_annular(float(a.max()))
         return plain(a)
 
+    @finite_answer
     def profile_area(self, a: ArrayLike) -> Array:
         """Area between the one-dimensional image and its tangent at the tip, ∫₀^a g dx [m²].
 
@@ -230,6 +233,7 @@ class Indenter(Record, ABC):
             k_zc = 2 * positive_array("E_star", E_star, "Pa") * self.contact_radius(d)
         return plain(self._in_range("k_zc", k_zc, d))
 
+    @finite_answer
     def pressure(self, r: ArrayLike, d: ArrayLike, E_star: ArrayLike) -> Array:
         """Pressure p [Pa] of an elastic contact, 0 for r >= a.
 
@@ -361,7 +365,7 @@ class Indenter(Record, ABC):
         """The answer; ValueError where it is not finite, as one of its terms is beyond the range of floats."""
         if not np.all(np.isfinite(answer)):
             raise ValueError(
-                f"{name} of {self!r} is beyond the range of floats at d = {np.max(np.asarray(d)):.6g} m: "
+                f"{name} of {self!r} is beyond the range of floats at {np.max(np.asarray(d)):.6g} m: "
                 "the shape is too flat, or pressed too deep"
             )
         return answer

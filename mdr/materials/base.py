@@ -130,7 +130,10 @@ class Material(Record, ABC):
         (4000000+1200000j)
         """
         omega = finite_array("omega", omega, "rad/s")
-        modulus = complex_modulus(omega, self.E_star, self.tau, self.contact_arms)
+        with np.errstate(over="ignore", invalid="ignore"):
+            modulus = complex_modulus(omega, self.E_star, self.tau, self.contact_arms)
+        if not np.isfinite(modulus).all():
+            raise ValueError(f"E*(omega) is beyond the range of floats at omega = {np.max(omega):.6g} rad/s: lower it")
         return complex(modulus) if modulus.ndim == 0 else modulus
 
     def relaxation_modulus(self, t: ArrayLike) -> Array:

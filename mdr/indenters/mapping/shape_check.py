@@ -121,6 +121,18 @@ def held(own: Method, expected: Method) -> Method:
     return answered
 
 
+def finite_answer(own: Method) -> Method:
+    """A method of a shape that refuses an answer beyond the range of floats, and does not warn of it."""
+
+    @wraps(own)
+    def answered(self: Any, at: ArrayLike, *given: Any, **named: Any) -> Array:
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            answer = own(self, at, *given, **named)
+        return np.asarray(self._in_range(own.__name__, answer, at))[()]
+
+    return answered
+
+
 def noise_of(x: Array, y: Array) -> float:
     """About the standard deviation of the noise of y: the median of its fourth differences, over what noise of 1 makes.
 
