@@ -21,7 +21,7 @@ def test_a_header_names_its_case_and_command(tmp_path, capsys):
     assert '[material] model = "KelvinVoigt", E = 3000000.0' in text
     case = mdr.read_case(EXAMPLE)
     assert said["u_z_max"] == pytest.approx(1.05 * case.u_z_max)  # a little above the greatest depth of the case
-    assert (said["n_springs"], said["n_state"]) == (64, 4 + 3 * 64)
+    assert (said["n_springs"], said["n_state"]) == (64, 5 + 3 * 64)
     assert main(["export", EXAMPLE, "-o", str(path), "--u-z-max", "5e-5", "--n-springs", "16"]) == 0
     assert "#define FOOT_U_Z_MAX 5e-05" in path.read_text(encoding="utf-8")
 
