@@ -122,7 +122,8 @@ def fault(state, contact, mark):
     """What is wrong with a state (n_state,) of these springs, a number; zero for nothing.
 
     A spring in contact is as short as the gap left to it, one that flies is shorter, and none was ever shorter than at
-    the greatest depth. Without a memory of the material the extension is within the compression, as is the force.
+    the greatest depth. Without a memory of the material none flies compressed, and the extension is within the
+    compression, as is the force.
     """
     n, rounding = contact.gap.size, 2 * SAME
     parts = parts_of(state.size, n)
@@ -137,7 +138,7 @@ def fault(state, contact, mark):
         most = 1.0 - contact.gap[i] + rounding
         fits &= (s >= max(depth - contact.gap[i], 0.0) - rounding) & (s <= most)
         if parts == 1 and contact.law.T == 0.0:
-            fits &= x * x + y * y <= (s + rounding) ** 2
+            fits &= (s <= max(depth - contact.gap[i], 0.0) + rounding) & (x * x + y * y <= (s + rounding) ** 2)
     return 0 if fits else IMPOSSIBLE
 
 

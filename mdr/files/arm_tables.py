@@ -9,7 +9,7 @@ import numpy as np
 
 from mdr.files.case_files import record_of
 from mdr.files.measurements import LIKELY_MODULUS, Words, read_table
-from mdr.files.relative_moduli import WAY_OUT, are_relative, in_pascals
+from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals
 from mdr.files.toml_text import parse_toml, read_text, tried
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column, fault
@@ -22,7 +22,10 @@ MODULI = (
     Column("E_j", ("E_i", "modulus"), "Pa", needed=False, bare=True),
     Column("G_j", ("G_i", "shear modulus"), "Pa", needed=False, bare=True),
 )
-ARMS = (*MODULI, Column("tau_j", ("tau_i", "tau", "τ", "relaxation time"), "s", bare=True, empty=np.inf))
+BULK = Column(
+    "k_j", ("k_i", "k"), needed=False
+)  #: shares of a bulk modulus, as finite-element programs have them beside
+ARMS = (*MODULI, BULK, Column("tau_j", ("tau_i", "tau", "τ", "relaxation time"), "s", bare=True, empty=np.inf))
 
 
 def from_table(
@@ -56,6 +59,10 @@ def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
         i, unit = int(np.argmin(good)), "" if kind == "g_j" else " Pa"
         what = f"must have {kind} >= 0{unit} and tau_j > 0 s, got {E[i]:.6g}{unit} and {tau[i]:.6g} s"
         raise fault(f"{table.source}: line {table.lines[i]}", what)
+    bulk = table.values.get("k_j", E)
+    if not np.all((1 - 2 * nu) / 3 * np.abs(bulk - E) <= ROUNDED):  # by which E_j then is another share than G_j
+        what = f"k_j must equal g_j at nu = {nu:.6g}, as Poisson's ratio is constant here"
+        raise table.fault(f'{what}; columns={{"k_j": ""}} leaves it out, if that may be')
     arms = tau < np.inf
     E_inf, moduli = None if arms.all() else float(E[~arms].sum()), E[arms].tolist()
     if E_0 is None and (kind == "g_j" or are_relative(E_inf, moduli)):

@@ -246,6 +246,8 @@ def read_record(path: str | PathLike[str], *, units: Words = None, columns: Word
     if len(table.values) < 2:
         way_out = "write t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
         raise table.fault(f"the header names a time alone; {way_out}{table.hint}; it is {table.header}")
+    if np.any(falls := np.diff(table.values["t"]) < 0):
+        raise table.fault(f"t falls in line {table.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
     _doubt_units(table.values)
     return table.values
 

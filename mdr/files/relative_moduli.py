@@ -16,7 +16,7 @@ from mdr.tools.checks import positive
 from mdr.tools.notation import numbers_in
 
 ROUNDED = 0.01  #: by which a sum of rounded shares may miss 1
-WAY_OUT = "moduli between 0 and 1 whose sum is 1 look like shares of the instantaneous modulus: give "
+WAY_OUT = "moduli between 0 and 1 whose sum is 1 or less look like shares of the instantaneous modulus: give "
 
 
 def are_relative(E_inf: float | None, moduli: Sequence[float]) -> bool:
@@ -33,7 +33,8 @@ def in_pascals(E_0: float, E_inf: float | None, moduli: Sequence[float]) -> tupl
     if not are_relative(E_inf, moduli):
         total, row = sum(moduli) + (E_inf or 0.0), "" if E_inf is None else ", with the long-time one"
         raise ValueError(
-            f"E_0 is for shares between 0 and 1 whose sum is 1{row}, got the sum {total:.6g}; leave it out"
+            f"E_0 is for shares between 0 and 1 whose sum is 1{row}, got the sum {total:.6g}; correct them, or "
+            "leave E_0 out, if they are moduli in Pa"
         )
     rest = max(1 - sum(moduli), 0.0) if E_inf is None else E_inf
     return E_0 * rest, [E_0 * one for one in moduli]

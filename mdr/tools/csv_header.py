@@ -2,7 +2,8 @@
 
 What `columns=` names is taken first. Of the other names the best spelling is taken: exact; exact but for spaces,
 hyphens and underscores; a word in letters of another case; a single letter of another case, and this with a unit that
-measures the same (`T [C]` is no time t, `U [V]` no displacement u). What nobody names is left alone.
+measures the same (`T [C]` is no time t, `U [V]` no displacement u). What nobody names is left alone: where `columns=`
+says that the letter of one quantity is another, as x of an acceleration, other letters are none that may be left out.
 """
 
 from __future__ import annotations
@@ -89,6 +90,9 @@ class Header:
     ) -> None:
         self.columns, self.units, self.called = columns, units, called
         self.heads = [Head.of(cell) for cell in cells]
+        self.letters_differ = any(
+            own in one.names for name, own in called.items() for one in columns if one.name != name
+        )
         self.text = short(", ".join(head.whole for head in self.heads), LONGEST)
 
     def places(self) -> list[Place]:
@@ -148,11 +152,15 @@ class Header:
         found = [
             i
             for i, head in enumerate(self.heads)
-            if i not in taken and head.spelling((column.name, *column.names)) == spelling
+            if i not in taken and head.spelling((column.name, *self._names_of(column))) == spelling
         ]
         if spelling < SPELLINGS - 1:
             return found
         return [i for i in found if self._fits(column, i) or (column.needed and not self._written(column, i))]
+
+    def _names_of(self, column: Column) -> list[str]:
+        """Other names that a header may give a column."""
+        return [one for one in column.names if column.needed or len(one) > 1 or not self.letters_differ]
 
     def _best(self, found: list[int], column: Column) -> int | None:
         """The one of them, or the one in a unit of the column."""

@@ -395,6 +395,7 @@ HOSTILE = {
     "state that pulls": ({"state": "pulls"}, "possible"),
     "state beyond u_z_max": ({"state": "deep"}, "possible"),
     "state within the indenter": ({"state": "within"}, "possible"),
+    "state at another depth": ({"state": "lifted"}, "possible"),
     "state beyond friction": ({"state": "stretched"}, "possible"),
     "state of a cube": ({"state": "cube"}, "of this element"),
     "state None": ({"state": None}, "real numbers"),
@@ -416,6 +417,7 @@ def test_hostile_steps_are_refused(change, words):
         "pulls": np.where(np.arange(rest.size) == N_HEAD + 40, -1e-6, rest),
         "deep": np.where(np.arange(rest.size) == N_HEAD, 1.001, rest),
         "within": np.where(np.arange(rest.size) == 2, 2 * GOOD[2], rest),
+        "lifted": np.where(np.arange(rest.size) == 2, 0.5 * GOOD[2], rest),
         "stretched": np.where(np.arange(rest.size) == N_HEAD + 48, rest[N_HEAD] + 1e-6, rest),
     }
     given = {"state": rest, "dt": DT, "u": GOOD} | change

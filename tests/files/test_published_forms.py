@@ -33,9 +33,13 @@ def moduli(path, **given):
     return mdr.read_moduli(path, **given)._asdict()
 
 
-def arms(path, **given):
-    found = mdr.Prony.read(path, nu=0.5, **given)
+def arms(path, nu=0.5, **given):
+    found = mdr.Prony.read(path, nu=nu, **given)
     return {"E_inf": found.E_inf, **{f"arm {j}": arm for j, arm in enumerate(found.arms)}}
+
+
+def stiff_arms(path, **given):
+    return arms(path, nu=0.3, **given)
 
 
 def friction(path, **given):
@@ -61,6 +65,9 @@ FORMS = {
     # logs
     "xyz in g": (record, "time,x,y,z\n0,0.1,0.2,1\n0.01,0.2,0.1,0.9\n", {"columns": XYZ, "units": GS},
                  {"t": [0, 0.01], "a_x": [0.1 * G, 0.2 * G], "a_z": [G, 0.9 * G]}),
+    "x alone in g": (record, "time,x,y,z\n0,0.1,0.2,1\n", {"columns": {"a_x": "x"}, "units": {"t": "s", "a_x": "g"}},
+                     {"t": [0], "a_x": [0.1 * G]}),
+    "time falls": (record, "t [s],a [g]\n0,1\n-0.01,1\n", {}, ("t falls in line 3",)),
     "xyz with units": (record, "time [s],x [g],y [g],z [g]\n0,0.1,0.2,1\n", {"columns": XYZ}, {"a_y": [0.2 * G]}),
     "xyz, not named": (record, "time [s],x [g],y [g],z [g]\n0,0.1,0.2,1\n", {},
                        ("is it a_x?", 'columns={"a_x": "x"}', 'columns={"a_z": "z"}')),
@@ -99,8 +106,12 @@ FORMS = {
     "shares, E_0": (arms, "E_j, tau_j\n0.3, 0.01\n0.2, 1\n0.5, inf\n", {"E_0": 2e6}, SHARES),
     "shares without the long-time one": (arms, "g_i, tau_i\n0.3, 0.01\n0.2, 1\n", {"E_0": 2e6}, SHARES),
     "shares with bulk ones": (arms, "g_i, k_i, tau_i\n0.3, 0, 0.01\n0.2, 0, 1\n", {}, ("E_0=",)),
+    "bulk ones that differ": (stiff_arms, "g_i, k_i, tau_i\n0.3, 0, 0.01\n", {"E_0": 2e6},
+                              ("k_j must equal g_j at nu = 0.3",)),
+    "bulk ones, left out": (stiff_arms, "g_i, k_i, tau_i\n0.5, 0, 0.01\n", {"E_0": 2e6, "columns": {"k_j": ""}},
+                            {"E_inf": 1e6, "arm 0": (1e6, 0.01)}),
     "shares by their ratio": (arms, "tau_i [s], G_i/G_0\n0.01, 0.3\n1, 0.2\n", {"E_0": 2e6}, SHARES),
-    "pascals with E_0": (arms, "E_j, tau_j\n3e6, 0.01\n2e6, inf\n", {"E_0": 5e6}, ("leave it out",)),
+    "pascals with E_0": (arms, "E_j, tau_j\n3e6, 0.01\n2e6, inf\n", {"E_0": 5e6}, ("leave E_0 out",)),
     "shear moduli": (arms, "G_i [MPa], tau_i [ms]\n1, 10\n2, inf\n", {}, {"E_inf": 6e6, "arm 0": (3e6, 0.01)}),
     "shares in a case": (arms, "E_inf = 0.5\narms = [[0.3, 0.01], [0.2, 1]]\n", {}, ('E_0 = "3 MPa"',)),
     "shares in a case, E_0": (arms, 'E_0 = "2 MPa"\narms = [[0.3, 0.01], [0.2, 1]]\n', {}, SHARES),
