@@ -9,6 +9,7 @@ from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
+from chromium import PATIENCE
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -28,7 +29,6 @@ from mdr.plots.side_view import SideView
 from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
 
-PATIENCE = 600.0  #: s, until a wait is given up
 CASES = {
     "rigid": example(pull="RigidPull"),
     "body": example(),
