@@ -4,9 +4,10 @@ M y'' + C y' + K y = -F(t), with its motion y relative to the pull. A step gives
 body answers a force that is linear in the step, with this area and moment, exactly. So it has no dispersion of its own,
 and right impulses whatever happens within a step.
 
-A *light* body, without mass or one whose oscillation on the contact the steps do not resolve, follows the springs at
-once. It too moves on a parabola in a step, from where it is, such that the impulse of all forces over the step is zero
-and their sum at its end too: Radau's method of third order. What it does not resolve dies out at once.
+A *light* body, without mass, or one whose oscillation on the contact the steps do not resolve, or which the dashpots of
+the contact stop within a step, follows the springs at once. It too moves on a parabola in a step, from where it is,
+such that the impulse of all forces over the step is zero and their sum at its end too: Radau's method of third order.
+What it does not resolve dies out at once.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, ringing: float) ->
     none, square = (0.0, 0.0), ((0.0, 0.0), (0.0, 0.0))
     if np.isinf(K):
         return Body(True, False, 0.0, 0.0, K, h, 0.0, square, none, none, square)
-    if ringing * h > 2 * np.pi / RESOLVED:
+    if ringing * h > 2 * np.pi / RESOLVED or law.T * h > M:  # it rings on what sticks, or that stops it at once
         return Body(False, True, M, C, K, h, ringing, square, none, none, square)
     way, way_1, way_2, turn, rate = pushed(C * h / M, K * h**2 / M)
     free = ((turn, h * way), (-K * h / M * way, rate))

@@ -1,6 +1,7 @@
 """The body over a step: the oscillator itself under a force that is linear in a step, and its harmonics."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -152,6 +153,25 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
         s, state = scaled.normal.s.copy(), scaled.full_slip.state(v).copy()  # contiguous, as march() is compiled for
         assert scaled.body.light
         assert march(s.copy(), s, state, *of_body, *of_springs, 2 * steps, scaled.trace(2))
+
+
+@pytest.mark.parametrize("tau", [1e-3, 1e-2])
+def test_a_pull_far_softer_than_the_contact_has_a_limit(tau):
+    """Body and spring of 1e-5 to 1e-8 of the stiffness of a damped contact, at one share of v_c: the dashpots stop so
+    light a body within a step, and its mass does not matter any more.
+    """
+    contact = mdr.SlidingContact(
+        mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, tau), 0.5, mdr.NormalOscillation(20e-6, 8e-6, 300.0)
+    )
+    runs = []
+    for k_x in contact.k_xc * np.array([1e-5, 1e-6, 1e-8]):
+        case = replace(contact, pull=mdr.SpringPull(k_x, k_x / (0.4 * contact.omega) ** 2))
+        v_0 = 0.3 * mdr.critical_velocity(case)
+        runs.append(mdr.slide(case, v_0, steps_per_period=2048, n_springs=64))
+    assert all(run.settled and run.cof_error < 5e-5 * case.mu_0 for run in runs)
+    assert max(run.n_periods for run in runs) < 2000
+    cofs = [run.cof for run in runs]
+    assert np.ptp(cofs) < 1e-4 * case.mu_0
 
 
 @pytest.mark.parametrize("start", ["in flight", "thrown as a flat touches", "thrown by each spring"])
