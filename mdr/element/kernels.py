@@ -1,8 +1,7 @@
 """The compiled steps of a contact that is moved on straight lines: the spring's step of the library, and no other.
 
 Way, depth and force are in scaled form: depth over the unit of depth, way over mu_0 kappa times that unit, stiffness
-over that of all springs. So Coulomb's law has no coefficient. The normal part has no friction in it; it is done by
-`press` beside the step, which also answers the area of the normal force.
+over that of all springs. So Coulomb's law has no coefficient.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -12,9 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mdr.spring.contact import Each, press, within
 from mdr.spring.law import Law
-from mdr.spring.step import Path, glassy, new_tools, press, row, tools_of
-from mdr.spring.turning import row_turning
+from mdr.spring.motion import end_force, glassy
+from mdr.spring.path import Path
+from mdr.spring.row import any_row
+from mdr.spring.times import STEP, new_tools, tools_of
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.jit import compiled, inner
 
@@ -45,70 +47,29 @@ class SpringRow(NamedTuple):
     force_z: float  #: [N]
 
 
-class Straight(NamedTuple):
-    """What a straight piece of motion leaves, in scaled form."""
-
-    F_x: float  #: at its end
-    F_y: float
-    F_z: float
-    area_x: float  #: over its time
-    area_y: float
-    area_z: float
-
-
 @_inline
-def carried(s, w, since, rate, T, arms):
-    """Normal force of the springs at the end of a step, and the sum of the stiffnesses of those that carry it.
-
-    since (n,): positive where a spring presses.
-    """
-    F_z = pressed = 0.0
-    for i in range(w.size):
-        normal = s[0, i] + T * rate
-        if arms is not None:
-            for j in range(arms.rho.size):
-                normal += arms.rho[j] * s[1 + j, i]
-        presses = since[i] > 0.0 and normal > 0.0
-        F_z += w[i] * normal if presses else 0.0
-        pressed += w[i] if presses else 0.0
-    return F_z, pressed
-
-
-@_inline
-def straight(s, e, z_0, way, across, contact, T, modes, arms, tools, trial, since):
-    """The springs s, e after a straight way (3,), scaled, from the depth z_0; trial, since: room to work in.
-
-    across: None for springs e (1 + J, n) that move along x alone.
-    """
-    h = tools.h
-    path = Path(z_0, way[2] / h, 0.0, way[0] / h, 0.0)
-    trial[:] = s
-    area_z, _ = press(trial, contact.gap, contact.w, path, T, modes, arms, tools, since)
-    if across is None:
-        z_1, x_1 = path.z_1, path.x_1
-        area, _, _, _, end, _, _ = row(s, e, contact.gap, contact.w, path, T, modes, arms, tools, z_1, x_1, None)
-        ends, areas = (end, 0.0), (area, 0.0)
-    else:
-        of = row_turning(s, e, contact.gap, contact.w, path, way[1] / h, 0.0, T, modes, arms, tools, None)
-        ends, areas = (of.end_x, of.end_y), (of.area_x, of.area_y)
-    F_z, _ = carried(s, contact.w, since, path.z_1, T, arms)
-    return Straight(ends[0], ends[1], F_z, areas[0], areas[1], area_z)
+def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each):
+    """The springs s, e after a straight way, scaled, from the depth z_0: their Answer. e is complex in the plane."""
+    h = tools.times.h
+    z_1, x_1 = way_z / h, way_x / h
+    path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1)
+    return any_row(s, e, contact.gap, contact.w, path, z_1, x_1, T, modes, arms, tools, None, each, None)
 
 
 class Room(NamedTuple):
     """Room to work in, for n springs of 1 + J parts."""
 
     s: Array  #: (1 + J, n)
-    e: Array  #: (2 (1 + J), n)
-    trial: Array  #: (1 + J, n)
-    since: Array  #: (n,)
+    e: Array  #: (1 + J, n), complex
+    each: Each
     F: Array  #: (3, 3, n) forces at the end of three steps, over the stiffness of each spring
 
 
 @_inline
 def room_for(parts, n):
     """Room for n springs."""
-    return Room(np.empty((parts, n)), np.empty((2 * parts, n)), np.empty((parts, n)), np.empty(n), np.empty((3, 3, n)))
+    each = Each(np.empty(n), np.empty(n))
+    return Room(np.empty((parts, n)), np.empty((parts, n), np.complex128), each, np.empty((3, 3, n)))
 
 
 @_inline
@@ -147,24 +108,17 @@ def forces(room, way, h, T, arms, F):
     """Fill F (3, n) with the forces of the springs at the end of a way of the time h, over their stiffness: of what L
     makes of their extension that part which friction bears.
     """
-    J, t = room.s.shape[0], T / h
-    for i in range(room.since.size):
-        x, y, z = room.e[0, i] + t * way[0], room.e[J, i] + t * way[1], room.s[0, i] + t * way[2]
-        if arms is not None:
-            for j in range(arms.rho.size):
-                x += arms.rho[j] * room.e[1 + j, i]
-                y += arms.rho[j] * room.e[J + 1 + j, i]
-                z += arms.rho[j] * room.s[1 + j, i]
-        limit, size = z if room.since[i] > 0.0 and z > 0.0 else 0.0, np.sqrt(x * x + y * y)
-        part = limit / size if size > limit else 1.0
-        F[0, i], F[1, i], F[2, i] = part * x, part * y, limit
+    rate = complex(way[0], way[1]) / h
+    for i in range(room.s.shape[1]):
+        f = within(end_force(room.e, i, rate, T, arms), room.each.force[i])
+        F[0, i], F[1, i], F[2, i] = f.real, f.imag, room.each.force[i]
 
 
 @_inline
 def moved(s, e, z_0, way, contact, T, modes, arms, tools, room):
     """The springs s, e, which are left as they are, after a straight way (3,) from the depth z_0, in the room."""
     room.s[:], room.e[:] = s, e
-    return straight(room.s, room.e, z_0, way, way, contact, T, modes, arms, tools, room.trial, room.since)
+    return straight(room.s, room.e, z_0, complex(way[0], way[1]), way[2], contact, T, modes, arms, tools, room.each)
 
 
 @_inline
@@ -174,7 +128,7 @@ def looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room):
     for k in range(1, 3):
         there[j] = way[j] + k * d
         moved(s, e, z_0, there, contact, T, modes, arms, tools, room)
-        forces(room, there, tools.h, T, arms, room.F[k])
+        forces(room, there, tools.times.h, T, arms, room.F[k])
 
 
 @_inline
@@ -202,7 +156,7 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
     """
     looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room)
     K[:, j] = 0.0
-    even, stiffest = EVEN * abs(d) * (1.0 + T / tools.h), glassy(arms) + T / tools.h
+    even, stiffest = EVEN * abs(d) * (1.0 + T / tools.times.h), glassy(arms) + T / tools.times.h
     for i in range(contact.gap.size):
         w, done, near = contact.w[i], contact.w[i] * bends(room.F, i) <= even, d
         if done:
@@ -231,10 +185,10 @@ def steps(states, us, h, contact, mark, pull, tangents):
     """A step of length h of m contacts that stand alike: states (m, n_state), changed, to positions us (m, 3) [m].
 
     pull (m, 3) [N] is filled, and tangents (m, 3, 3) [N/m] too if it is not empty. Answers 0, or what is wrong with a
-    state or with what comes out,.
+    state or with what comes out.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
-    tools, unit = new_tools(h, modes, arms), np.array([contact.length_x, contact.length_x, contact.length_z])
+    tools, unit = new_tools(h, modes, arms, 0j), np.array([contact.length_x, contact.length_x, contact.length_z])
     force = np.array([contact.force_x, contact.force_x, contact.force_z])
     parts = parts_of(states.shape[1], n)
     room, alone, K = room_for(parts, n), room_for(parts, 1), np.empty((3, 3))
@@ -243,10 +197,11 @@ def steps(states, us, h, contact, mark, pull, tangents):
         if wrong != 0:
             return wrong
         springs = states[b, N_HEAD:-1]
-        s, e = springs[: parts * n].reshape(parts, n), springs[parts * n :].reshape(2 * parts, n)
+        s, both = springs[: parts * n].reshape(parts, n), springs[parts * n :].reshape(2 * parts, n)
+        e = both[:parts] + 1j * both[parts:]
         z_0, way = states[b, 2] / unit[2], us[b] / unit - states[b, :3] / unit
         of = moved(s, e, z_0, way, contact, T, modes, arms, tools, room)
-        now = np.array([of.F_x, of.F_y, of.F_z])
+        now = np.array([of.end.real, of.end.imag, of.normal_end])
         new_s, new_e = room.s.copy(), room.e.copy()
         if tangents.size > 0:
             forces(room, way, h, T, arms, room.F[0])
@@ -261,10 +216,10 @@ def steps(states, us, h, contact, mark, pull, tangents):
                 d_j = -d if side < 0.0 else d
                 rates(K, j, d_j, s, e, z_0, way, contact, T, modes, arms, tools, room, alone)
                 tangents[b, :, j] = force * K[:, j] / unit[j]
-        area = np.array([of.area_x, of.area_y, of.area_z])
+        area = np.array([of.area.real, of.area.imag, of.normal_area])
         pull[b], velocity = force * now, (us[b] - states[b, :3]) / h
         states[b, 3] += (velocity * force * area).sum()
-        states[b, :3], s[:], e[:] = us[b], new_s, new_e
+        states[b, :3], s[:], both[:parts], both[parts:] = us[b], new_s, new_e.real, new_e.imag
         if not (np.isfinite(states[b]).all() and np.isfinite(pull[b]).all()):
             return BEYOND
         if tangents.size > 0 and not np.isfinite(tangents[b]).all():
@@ -273,32 +228,29 @@ def steps(states, us, h, contact, mark, pull, tangents):
 
 
 @_inline
-def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial, since):
+def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial):
     """Depth at the end of a step from z at which the springs carry a load: Newton's method within a bracket.
 
     Begins at z + ahead. scale: of loads. With a dashpot the force jumps where a spring touches, maybe over the load.
     """
-    h, low, high, x, wider = tools.h, -np.inf, np.inf, z + ahead, WIDER
+    h, low, high, x, wider = tools.times.h, -np.inf, np.inf, z + ahead, WIDER
     for _ in range(MOST_TRIALS):
         trial[:] = s
         rate = (x - z) / h
-        press(trial, contact.gap, contact.w, Path(z, rate, 0.0, 0.0, 0.0), T, modes, arms, tools, since)
-        F_z, pressed = carried(trial, contact.w, since, rate, T, arms)
-        off = F_z - load
+        of = press(trial, contact.gap, contact.w, Path(z, rate, 0.0, 0.0, 0.0), rate, T, modes, arms, tools, None)
+        off = of.normal_end - load
         if abs(off) <= BALANCED * scale:
             break
         low, high = (low, x) if off > 0.0 else (x, high)
         if high - low <= 1e-15 * (1.0 + abs(x)):
             break
-        stiff, after = pressed * (1.0 + T / h), x + wider
+        stiff, after = of.pressed * (1.0 + T / h), x + wider
         if arms is not None:
             for j in range(arms.rho.size):
-                stiff += pressed * arms.rho[j] * tools.held[0, 1, j] / h
+                stiff += of.pressed * arms.rho[j] * tools.times.arms[STEP, 1, j] / h
         if stiff > 0.0:
             after = x - off / stiff
-            if (
-                after == x
-            ):  # met to the rounding of the depth, which a dashpot over a short step is stiff enough to show
+            if after == x:  # met to the rounding of the depth, which a dashpot is stiff enough to show in a short step
                 break
         else:  # nothing touches
             wider *= 2.0
@@ -307,55 +259,46 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial,
 
 
 @_jit
-def follow(s, e, u, t, x, y, depth, load, parts, contact, out, start, stop):
-    """Follow a record from sample to sample, of the numbers start to stop; s (1 + J, n), e and u (3,), the scaled
-    position, are changed.
+def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
+    """Follow a record from sample to sample, of the numbers start to stop; s, e (1 + J, n) are changed.
 
-    t, x (n_t,): instants [s], scaled way. y: the way across, or None for springs e (1 + J, n) with the step along one
-    line. depth (n_t,): scaled, filled where there is a load (n_t,). parts: of an interval. out (n_t, 6): of Straight,
-    the areas over the interval that ends there. With a dashpot the force jumps where the velocity does; at a sample of
+    t, x (n_t,): instants [s], scaled way; x and e are complex in the plane. depth
+    (n_t,): scaled, filled where there is a load (n_t,). parts: of an interval. out (n_t, 6): force at each sample, and
+    its area over the interval that ends there. With a dashpot the force jumps where the velocity does; at a sample of
     given depth stands the mean of both sides.
     """
     T, modes, arms = contact.law
-    tools, viscous = new_tools(1.0, modes, arms), modes is not None
-    trial, since, v, way = np.empty_like(s), np.empty(s.shape[1]), u.copy(), np.empty(3)
-    scale, rate = load.max() if load.size > 0 else 1.0, 0.0
-    s_near, e_near = np.empty_like(s), np.empty_like(e)
+    tools, viscous = new_tools(1.0, modes, arms, 0.0 * x[0]), modes is not None
+    trial, s_near, e_near = np.empty_like(s), np.empty_like(s), np.empty_like(e)
+    scale, rate, z = load.max() if load.size > 0 else 1.0, 0.0, depth[start]
     for k in range(start + 1, stop + 1):
-        dt = (t[k] - t[k - 1]) / parts
+        dt, x_0, z_0 = (t[k] - t[k - 1]) / parts, x[k - 1], depth[k - 1]
         h = dt if viscous else 1.0
-        if h != tools.h:
+        if h != tools.times.h:
             tools = tools_of(h, modes, arms, tools)
         if T > 0.0 and load.size == 0 and k > 1:
             s_near[:], e_near[:] = s, e
-            v[0], v[2] = u[0] + SOON * (x[k] - x[k - 1]), u[2] + SOON * (depth[k] - depth[k - 1])
-            soon = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools)
-            if y is not None:
-                v[1] = u[1] + SOON * (y[k] - y[k - 1])
-            way[:] = v - u
-            of = straight(s_near, e_near, u[2], way, y, contact, T, modes, arms, soon, trial, since)
-            out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.F_x)
-            out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.F_y)
-            out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.F_z)
+            soon, way = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools), SOON * (x[k] - x_0)
+            sinks = SOON * (depth[k] - z_0)
+            of = straight(s_near, e_near, z, way, sinks, contact, T, modes, arms, soon, None)
+            out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.end.real)
+            out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.end.imag)
+            out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.normal_end)
         out[k, 3] = out[k, 4] = out[k, 5] = 0.0
+        x_1 = x_0
         for part in range(parts):
             share = (part + 1) / parts
-            v[0] = x[k - 1] + share * (x[k] - x[k - 1])
-            if y is not None:
-                v[1] = y[k - 1] + share * (y[k] - y[k - 1])
+            x_2, z_2 = x_0 + share * (x[k] - x_0), z_0 + share * (depth[k] - z_0)
             if load.size > 0:
                 under = load[k - 1] + share * (load[k] - load[k - 1])
                 ahead = rate * h if under > 0.0 else 0.0
-                v[2] = depth_under(under, scale, s, u[2], ahead, contact, T, modes, arms, tools, trial, since)
-                rate = (v[2] - u[2]) / h
-            else:
-                v[2] = depth[k - 1] + share * (depth[k] - depth[k - 1])
-            way[:] = v - u
-            of = straight(s, e, u[2], way, y, contact, T, modes, arms, tools, trial, since)
-            u[:] = v
-            out[k, 0], out[k, 1], out[k, 2] = of.F_x, of.F_y, of.F_z
-            out[k, 3] += dt / h * of.area_x
-            out[k, 4] += dt / h * of.area_y
-            out[k, 5] += dt / h * of.area_z
+                z_2 = depth_under(under, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
+                rate = (z_2 - z) / h
+            of = straight(s, e, z, x_2 - x_1, z_2 - z, contact, T, modes, arms, tools, None)
+            x_1, z = x_2, z_2
+            out[k, 0], out[k, 1], out[k, 2] = of.end.real, of.end.imag, of.normal_end
+            out[k, 3] += dt / h * of.area.real
+            out[k, 4] += dt / h * of.area.imag
+            out[k, 5] += dt / h * of.normal_area
         if load.size > 0:
-            depth[k] = u[2]
+            depth[k] = z

@@ -265,5 +265,5 @@ def _followed(row: SpringRow, depth: Array, dt: float, rates: Array, leads: Arra
         z, x = depth[np.arange(-lead, depth.size + 1) % depth.size], rate * t
         s, out = np.zeros((rows, row.gap.size)), np.zeros((t.size, 6))
         s[0] = np.maximum(z[0] - row.gap, 0)
-        follow(s, s.copy(), np.array([x[0], 0.0, z[0]]), t, x, None, z, np.empty(0), 1, row, out, 0, t.size - 1)
+        follow(s, s.copy(), t, x, z, np.empty(0), 1, row, out, 0, t.size - 1)
         yield out[lead + 1 :, [3, 5]].sum(axis=0) * np.array([row.force_x, row.force_z])

@@ -259,18 +259,18 @@ class _Followed(NamedTuple):
 def _followed(motion: _Motion, row: SpringRow, parts: int, ticker: Ticker) -> _Followed:
     """The record followed by a row of springs, each interval in so many parts."""
     t, n, rows = motion.t, row.gap.size, 1 if row.law.arms is None else 1 + row.law.arms.rho.size
-    x, y = motion.x / row.length_x, None if motion.y is None else motion.y / row.length_x
+    x = (motion.x if motion.y is None else motion.x + 1j * motion.y) / row.length_x
     depth = motion.depth / row.length_z
     load = np.empty(0) if motion.load is None else motion.load / row.force_z
-    s, e = np.zeros((rows, n)), np.zeros((rows if y is None else 2 * rows, n))
+    s, e = np.zeros((rows, n)), np.zeros((rows, n), x.dtype)
     s[0] = np.maximum(depth[0] - row.gap, 0)
-    out, u = np.zeros((t.size, 6)), np.array([x[0], 0.0 if y is None else y[0], depth[0]])
+    out = np.zeros((t.size, 6))
     out[0, 2] = row.w @ s[0]
     first = _stored(row, s, e)
     chunk = max(AT_ONCE // (n * parts), 1)
     for k in range(0, t.size - 1, chunk):
         end = min(k + chunk, t.size - 1)
-        follow(s, e, u, t, x, y, depth, load, parts, row, out, k, end)
+        follow(s, e, t, x, depth, load, parts, row, out, k, end)
         ticker.tick((end - k) * n * parts)
     if not all(np.isfinite(one).all() for one in (s, e, out, depth)):
         raise ValueError(
@@ -284,7 +284,7 @@ def _followed(motion: _Motion, row: SpringRow, parts: int, ticker: Ticker) -> _F
 
 
 def _stored(row: SpringRow, s: Array, e: Array) -> float:
-    return float(stored(row, np.concatenate([s, e, np.zeros((3 * len(s) - len(s) - len(e), e.shape[1]))]).ravel()))
+    return float(stored(row, np.concatenate([s, e.real, e.imag]).ravel()))
 
 
 def _static(indenter: Indenter, material: Material, load: Array) -> Array:

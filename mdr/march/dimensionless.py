@@ -92,7 +92,10 @@ class Drive:
 
     def with_pull(self, v: float) -> loop.Motion:
         """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
-        return loop.Motion(self.z, self.z_dot, v, self.along.x, self.along.x_dot)
+        x, x_dot = self.along.x, self.along.x_dot
+        if self.across is not None:
+            x, x_dot = x + 1j * self.across.x, x_dot + 1j * self.across.x_dot
+        return loop.Motion(self.z, self.z_dot, v, x, x_dot)
 
     @classmethod
     def of(cls, case: SlidingContact, length_x: float, steps: int) -> Drive:
@@ -203,8 +206,8 @@ class ScaledContact:
     def trace(self, n_periods: int = 1) -> loop.Trace:
         """Room for what a march leaves of its steps."""
         n_steps = n_periods * self.drive.steps
-        area, moment, y, rate = np.empty((4, n_steps))
-        return loop.Trace(area, moment, y, rate, np.empty((n_steps, 2, 3)))
+        kind = float if self.ways == 1 else complex
+        return loop.Trace(*np.empty((4, n_steps), kind), np.empty((n_steps, 2, 3), kind))
 
 
 def _settled(row: loop.Springs, drive: Drive, law: Law) -> NormalPeriod:

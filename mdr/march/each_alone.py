@@ -30,7 +30,7 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
     lasting = np.tile(np.r_[True, np.array(scaled.rheology.theta) > FORGOTTEN], scaled.ways)
     roots = np.sqrt(np.tile(np.r_[1.0, scaled.rheology.rho], scaled.ways))[:, None]
     farthest = float(start.s[0].max())
-    x = _inside(stepper, start.e.copy(), start)
+    x = _inside(stepper, _rows(start.e), start)
     before: Array = np.full(n, np.inf)
     part = np.ones(n)
     last = after = x
@@ -61,8 +61,7 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
         if not np.isfinite(off):
             return None
         if off <= BEFORE * stepper.tolerance:
-            state = start.with_vector(np.r_[x.ravel(), start.body])
-            end, periods = stepper.advance(state, 1)
+            end, periods = stepper.advance(state := _state(x, start), 1)
             if stepper.late(state, end, 1) > stepper.tolerance:
                 return None
             cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
@@ -77,11 +76,22 @@ def _length(x: Array) -> Array:
     return np.asarray(np.sqrt((x**2).sum(axis=0)))
 
 
+def _rows(e: Array) -> Array:
+    """Extensions (1 + J, n) as real rows: those across after those along."""
+    return np.concatenate([e.real, e.imag]) if np.iscomplexobj(e) else e.copy()
+
+
+def _state(x: Array, like: MarchState) -> MarchState:
+    """The state with these rows."""
+    parts = like.e.shape[0]
+    return MarchState.of(x if len(x) == parts else x[:parts] + 1j * x[parts:], like.s, like.body)
+
+
 def _marched(stepper: Stepper, x: Array, like: MarchState) -> Array:
     """The extensions a period later."""
-    return stepper.period(like.with_vector(np.r_[x.ravel(), like.body])).e
+    return _rows(stepper.period(_state(x, like)).e)
 
 
 def _inside(stepper: Stepper, x: Array, like: MarchState) -> Array:
     """The extensions within the friction of each spring."""
-    return stepper.within_friction(like.with_vector(np.r_[x.ravel(), like.body])).e.copy()
+    return _rows(stepper.within_friction(_state(x, like)).e)

@@ -73,10 +73,10 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     unit_x, unit_z = scaled.units.energy_x, scaled.units.energy_z
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
-    at_pull = any(way.far_end.any() for _, way, _, _ in stepper.directions)
+    both = stepper.directions(account.y, account.rate)
+    at_pull = any(way.far_end.any() for _, way, _, _ in both)
     shake = 0.0 if at_pull else shake
-    motions = [(account.y, account.rate), account.across]
-    for (body, way, v, at), (stretch, rate) in zip(stepper.directions, motions, strict=False):
+    for body, way, v, (stretch, rate) in both:
         if body.rigid:
             continue
         if way.far_end.any():  # stretch of the system spring, backward
@@ -84,7 +84,7 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
         u, w = OF_QUARTICS[:, :1], h * OF_QUARTICS[:, 1]
         y, y_dot = _between(stretch, rate, h, u, body.light)
         force = -body.K * y - body.C * y_dot  # of the pull, forward
-        pull = v * float(w @ force.sum(axis=1)) if at == 0 else pull
+        pull = v * float(w @ force.sum(axis=1)) if way is scaled.drive.along else pull
         damper += body.C * float(w @ (y_dot**2).sum(axis=1))
         if at_pull:
             shake += float(w @ (force * _between(way.far_end, way.far_end_dot, h, u, False)[1]).sum(axis=1))

@@ -1,10 +1,12 @@
 """The compiled march: springs and body step by step, period by period.
 
 Scaled form (dimensionless.py): time is omega t, normal lengths are in du_z, tangential ones in mu_0 kappa du_z,
-stiffnesses in that of the array. A state is one vector: extensions (1 + J, n) of the springs and their arms, then the
+stiffnesses in that of the array. What moves in the plane is a number along the pull, and a complex one where something
+moves across it too: its type is the dimension. A state are extensions (1 + J, n) of the springs and their arms, and the
 body (body.py). The compressions go beside it, as friction has no part in them.
 """
 
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -12,14 +14,18 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.march.body import RATE, Y
+from mdr.spring.contact import Look
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
-from mdr.spring.step import LENT, ROUNDING, Look, Path, as_they_are, glassy, row, tools_of
+from mdr.spring.motion import glassy
+from mdr.spring.path import FAST, LENT, ROUNDING, Path, along
+from mdr.spring.row import any_row, as_they_are
+from mdr.spring.times import tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
-_jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-_inner = inner(error_model="numpy", fastmath={"reassoc", "contract"})
-_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"}, **LENT)
+_jit = compiled(nogil=True, error_model="numpy", fastmath=FAST)
+_inner = inner(error_model="numpy", fastmath=FAST)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
 MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
@@ -48,17 +54,19 @@ class FullSlipForce(NamedTuple):
 
 
 class Here(NamedTuple):
-    """The motion of the indenter in a step, without the body, and the force of full slip."""
+    """The motion of the indenter in a step, without the body, and the force of full slip, where it is known."""
 
     path: Path
     z_dot: float  #: its rates at the end, of which those of the parabolas are off by h²/12 of a third derivative
-    x_dot: float
+    x_dot: complex
+    v: float  #: velocity of the pull
     area: float  #: of the force of full slip over the step
+    moment: float
     end: float  #: this force at its end
 
 
 class Last(NamedTuple):
-    """What springs did at the end of the step before; `Tools.excess` holds their state."""
+    """What springs did at the end of the step before."""
 
     sticking: float  #: share of them that stuck
     back: float  #: share that slipped back
@@ -71,8 +79,18 @@ class Springs(NamedTuple):
     w: Array  #: (n,) share of each spring in the stiffness
 
 
+class Moves(NamedTuple):
+    """The body in one direction over a step."""
+
+    y: float  #: its motion relative to the pull, at the end
+    q: float  #: its rate there; y'' h²/2 of a light body: the other unknown
+    rate: float
+    b_1: float  #: it moves by b_1 t + b_2 t²
+    b_2: float
+
+
 class Trace(NamedTuple):
-    """What a march leaves of each of its steps."""
+    """What a march leaves of each of its steps, numbers or vectors."""
 
     area: Array  #: (n_steps,) of the tangential force
     moment: Array  #: (n_steps,) of it
@@ -82,18 +100,16 @@ class Trace(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What a close look at a period fills, of n_t steps and n springs."""
+    """What a close look at a period fills, of n_t steps and n springs; f and e are vectors in the plane."""
 
     nodes: Nodes  #: over a step
     sums: Array  #: (N_SUMS,)
     F: Array  #: (n_t, 4) at the end of each step: force along and normal, least slip velocity, force across
     mode: Array  #: (n_t or 0, n) of each spring
-    f_x: Array  #: (n_t or 0, n) its force over its stiffness
+    f: Array  #: (n_t or 0, n) its force over its stiffness
     f_z: Array  #: (n_t or 0, n)
     e: Array  #: (n_t or 0, n)
     s: Array  #: (n_t or 0, n)
-    f_y: Array  #: (n_t or 0, n) across the pull
-    e_y: Array  #: (n_t or 0, n)
 
 
 @_inline
@@ -112,13 +128,11 @@ def copy(x, out):
 
 
 @_inline
-def path_of(motion, k, h, y_0, rate_0, y_1, rate_1):
-    """The parabolas of a step, with the body from y_0 to y_1 and its rates at both ends."""
+def path_of(motion, k, h):
+    """The parabolas of step k, without the body."""
     z, zd, x, xd = motion.z, motion.z_dot, motion.x, motion.x_dot
-    z_2 = (zd[k + 1] - zd[k]) / (2.0 * h)
-    x_2 = (xd[k + 1] - xd[k] + rate_1 - rate_0) / (2.0 * h)
-    x_1 = motion.v + (x[k + 1] - x[k] + y_1 - y_0) / h - x_2 * h
-    return Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, x_1, x_2)
+    z_2, x_2 = (zd[k + 1] - zd[k]) / (2.0 * h), (xd[k + 1] - xd[k]) / (2.0 * h)
+    return Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, motion.v + (x[k + 1] - x[k]) / h - x_2 * h, x_2)
 
 
 @_inline
@@ -129,44 +143,144 @@ def later(path, t):
 
 
 @_jit
-def march(e, s, held, body, springs, slip, flight, motion, law, tools, n_steps, trace):
+def march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
-    slip: the FullSlipForce; flight (n_t,): of a light body, time to the first touch in a step that begins without
-    contact, else zero. What the pull does not need is None, and compiled away. trace: filled. Returns whether every
-    step was solved for.
+    body, side: along the pull, or None if it is rigid; and across it, or None where nothing moves there. slip: the
+    FullSlipForce of a body along one line, else None; flight (n_t,): of a light one, time to the first touch in a step
+    that begins without contact, else zero. What is None is compiled away. trace: filled. Returns whether every step was
+    solved for.
     """
-    h, n_t, solved, last = tools.h, motion.z.size - 1, True, Last(0.0, 0.0)
-    e_0, s_0 = np.empty_like(e), np.empty_like(s)
-    (gap, w), (T, modes, arms) = springs, law
+    h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
+    excess = np.zeros((s.shape[0], 1))
+    room = np.empty_like(e), np.empty_like(s), excess
     for j in range(n_steps):
         k = j % n_t
         trace.way[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
         if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
-            tools.excess[:] = 0.0
-        zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
-        path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
+            excess[:] = 0.0
+        here = Here(path_of(motion, k, h), motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1], motion.v, 0.0, 0.0, 0.0)
+        if slip is not None:
+            here = Here(*here[:4], slip.area[k], slip.moment[k], slip.end[k])
         if flight is not None:
-            here = Here(path, zd, xd, slip.area[k], slip.end[k])
             area, moment, last, found = follow(
-                e, s, e_0, s_0, held, last, body, springs, here, flight[k], law, tools, j, trace
+                e, s, room, held, last, body, springs, here, slip, flight, flight[k], law, tools, j, trace
             )
         else:
-            if slip is not None:
-                put(e, e_0)
-                put(s, s_0)
-                force = slip.area[k], slip.moment[k]
-                path, area, moment, last, found = answer(
-                    e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools
-                )
-            else:
-                found = True
-                area, moment, _, _, _, _, _ = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
+            path, area, moment, last, found = stepped(
+                e, s, room, held, last, body, side, springs, here, slip, flight, law, tools
+            )
             note(trace, j, 1, h, path)
         solved = solved and found
         trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, held[Y], held[RATE]
     return solved
+
+
+@_inner
+def all_springs(s, e, springs, path, z_dot, x_dot, law, tools, excess, look):
+    """A step of the row, along a line or in the plane."""
+    (gap, w), (T, modes, arms) = springs, law
+    return any_row(s, e, gap, w, path, z_dot, x_dot, T, modes, arms, tools, excess, None, look)
+
+
+@_inner
+def stepped(e, s, room, held, last, body, side, springs, here, slip, flight, law, tools):
+    """A step of springs and body: it moves as their force makes it, and they move with it.
+
+    Newton's method on its motion at the end, by the stiffness of what sticks. Along a line turn 0 takes the force that
+    the springs have if none changes its mode (`last`), which most often is the true one; and where other springs stick
+    under a light body at every turn, `enclosed` finds them. Returns path, area, moment, what springs do at the end and
+    whether this was solved; e, s, held are updated.
+    """
+    e_0, s_0, excess = room
+    h, path, found = tools.times.h, here.path, False
+    if body is None:
+        of = all_springs(s, e, springs, path, here.z_dot, here.x_dot, law, tools, None, None)
+        return path, of.area, of.moment, last, True
+    y_0, rate_0, fresh = held[Y], held[RATE], True
+    ahead, aside = begins(y_0.real, rate_0.real, body, h), Moves(0.0, 0.0, 0.0, 0.0, 0.0)
+    if side is not None:
+        aside = begins(y_0.imag, rate_0.imag, side, h)
+    area = moment = 0.0 * e[0, 0]
+    put(e, e_0)
+    put(s, s_0)
+    for turn in range(MOST_TURNS + 1):
+        if flight is not None and turn == MOST_TURNS:
+            ahead = enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools)
+        path, rate = moved(here.path, ahead, aside, side)
+        if slip is not None and turn == 0:
+            area, moment, end = as_they_are(
+                path, last.sticking, last.back, law.T, law.arms, tools, excess, here.z_dot, here.x_dot + rate
+            )
+            area, moment, end = here.area + area, here.moment + moment, here.end + end
+            stick = last.sticking * h, 0.5 * last.sticking * h * h, last.sticking
+        else:
+            if not fresh:
+                put(e_0, e)
+                put(s_0, s)
+            of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, excess, None)
+            fresh, last = False, Last(of.sticking, of.back)
+            area, moment, end, stick = of.area, of.moment, of.end, (of.stuck, of.when, of.sticking)
+        ahead, found = better(
+            ahead, y_0.real, rate_0.real, area.real, moment.real, end.real, stick, here.v, body, law, h
+        )
+        if side is not None:
+            aside, other = better(
+                aside, y_0.imag, rate_0.imag, area.imag, moment.imag, end.imag, stick, here.v, side, law, h
+            )
+            found = found and other
+        if found and not fresh:
+            break
+    held[Y], held[RATE] = ahead.y, ahead.rate
+    if side is not None:
+        held[Y], held[RATE] = complex(ahead.y, aside.y), complex(ahead.rate, aside.rate)
+    return path, area, moment, last, found
+
+
+@_inline
+def begins(y_0, rate_0, body, h):
+    """How a body moves that goes on as it is."""
+    return moves(y_0 + h * rate_0, 0.0 if body.light else rate_0, y_0, rate_0, body, h)
+
+
+@_inline
+def moves(y, q, y_0, rate_0, body, h):
+    """How a body moves from y_0 to y."""
+    dy = y - y_0
+    b_2, rate = (q - rate_0) / (2.0 * h), q
+    if body.light:
+        b_2, rate = q / (h * h), (dy + q) / h
+    if body.rigid:
+        return Moves(0.0, 0.0, 0.0, 0.0, 0.0)
+    return Moves(y, q, rate, dy / h - b_2 * h, b_2)
+
+
+@_inline
+def moved(path, ahead, aside, side):
+    """The motion of the indenter with a body that moves so, and the rate of the body at the end."""
+    b_1, b_2, rate = ahead.b_1, ahead.b_2, ahead.rate
+    if side is not None:
+        b_1, b_2, rate = complex(b_1, aside.b_1), complex(b_2, aside.b_2), complex(rate, aside.rate)
+    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + b_1, path.x_2 + b_2), rate
+
+
+@_inline
+def better(one, y_0, rate_0, area, moment, end, stick, v, body, law, h):
+    """A body nearer to where these forces take it, and whether it was there."""
+    stuck, when, sticking = stick
+    if body.rigid:
+        return one, True
+    if body.light:
+        impulse, force, close = not_balanced(one.y, one.q, one.rate, y_0, rate_0, area, end, body, law, h)
+        dy, dq = corrected_balance(impulse, force, stuck, when, sticking, body, law, h)
+        is_close = abs(impulse) + abs(force) <= close
+    else:
+        off, off_rate, is_close = off_way(one.y, one.q, y_0, rate_0, area, moment, v, body, h)
+        dy, dq = corrected_way(off, off_rate, stuck / h, body)
+    if is_close:
+        return one, True
+    return moves(one.y - dy, one.q - dq, y_0, rate_0, body, h), False
 
 
 @_inline
@@ -192,103 +306,32 @@ def corrected_way(off, off_rate, share, body):
     return (d * off - b * off_rate) / det, (a * off_rate - c * off) / det
 
 
-@_inline
-def answer(e, s, e_0, s_0, held, last, body, springs, force, motion, k, law, tools):
-    """A step of a body with mass: it moves as area and moment of the force make it, and the springs move with it.
-
-    Newton's method on its motion at the end, by the stiffness of what sticks. Turn 0 takes the force that the springs
-    have if none changes its mode (`last`), which most often is the true one. force: area and moment of full slip.
-    Returns path, area, moment, what springs do at the end and whether this was solved; e, s, held are updated.
-    """
-    (gap, w), (T, modes, arms) = springs, law
-    h, y_0, rate_0 = tools.h, held[Y], held[RATE]
-    y, rate, found = y_0 + h * rate_0, rate_0, False
-    for turn in range(MOST_TURNS):
-        path = path_of(motion, k, h, y_0, rate_0, y, rate)
-        if turn == 0:
-            area, moment, _ = as_they_are(path, last.sticking, last.back, T, arms, tools, 0.0, 0.0)
-            area, moment, share = force[0] + area, force[1] + moment, last.sticking
-        else:
-            if turn > 1:
-                put(e_0, e)
-                put(s_0, s)
-            area, moment, stuck, _, _, sticking, back = row(s, e, gap, w, path, T, modes, arms, tools, 0.0, 0.0, None)
-            last, share = Last(sticking, back), stuck / h
-        off, off_rate, is_close = off_way(y, rate, y_0, rate_0, area, moment, motion.v, body, h)
-        found = turn > 0 and is_close
-        if found:
-            break
-        dy, d_rate = corrected_way(off, off_rate, share, body)
-        y, rate = y - dy, rate - d_rate
-    held[Y], held[RATE] = y, rate
-    return path, area, moment, last, found
-
-
 @_inner
-def follow(e, s, e_0, s_0, held, last, body, springs, here, flown, law, tools, j, trace):
+def follow(e, s, room, held, last, body, springs, here, slip, flight, flown, law, tools, j, trace):
     """Step j of a light body, in two parts where the first spring touches within it, after the time `flown`, as that
     throws the body.
 
-    here: motion of the indenter over the step; others as of `march`. Returns area and moment of the force, what springs
-    do at the end and whether all was solved.
+    here: motion of the indenter over the step; others as of `stepped`. Returns area and moment of the force, what
+    springs do at the end and whether all was solved.
     """
-    h, area, moment, solved, begin, first = tools.h, 0.0, 0.0, True, 0.0, 1
+    h, area, moment, solved, begin, first = tools.times.h, 0.0, 0.0, True, 0.0, 1
     if SHORTEST * h < flown < (1.0 - SHORTEST) * h:
         begin, first = flown, 0
     rest = later(here.path, begin)
     for part in range(first, 2):
-        one, now = Here(rest, here.z_dot, here.x_dot, here.area, here.end), tools
+        one, now = Here(rest, *here[1:]), tools
         if part == 0:
-            one, now = Here(here.path, rest.z_1, rest.x_1, 0.0, 0.0), tools_of(begin, law.modes, law.arms, tools)
+            one = Here(here.path, rest.z_1, rest.x_1, here.v, 0.0, 0.0, 0.0)
+            now = tools_of(begin, law.modes, law.arms, tools)
         elif first == 0:
             now = tools_of(h - begin, law.modes, law.arms, tools)
-        put(e, e_0)
-        put(s, s_0)
-        path, of_area, of_moment, last, found = balance(e, s, e_0, s_0, held, last, body, springs, one, law, now)
-        note(trace, j, part, now.h, path)
+        path, of_area, of_moment, last, found = stepped(
+            e, s, room, held, last, body, None, springs, one, slip, flight, law, now
+        )
+        note(trace, j, part, now.times.h, path)
         later_by = 0.0 if part == 0 else begin
         area, moment, solved = area + of_area, moment + of_moment + later_by * of_area, solved and found
     return area, moment, last, solved
-
-
-@_inner
-def balance(e, s, e_0, s_0, held, last, body, springs, here, law, tools):
-    """A step of a light body: no impulse of all forces is left over it, and no force at its end.
-
-    Newton's method on y at the end and u = y'' h²/2, as in `answer`; where other springs stick at every turn,
-    `enclosed` finds them. Returns path, area, moment, what springs do at the end and whether this was solved; e, s,
-    held are updated.
-    """
-    h, T = tools.h, law.T
-    y, u, found = held[Y] + h * held[RATE], 0.0, False
-    for turn in range(MOST_TURNS + 1):
-        if turn == MOST_TURNS:
-            y, u = enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools)
-        if turn == 0:
-            path, rate = with_body(y, u, held, here.path, h)
-            area, moment, end = as_they_are(
-                path, last.sticking, last.back, T, law.arms, tools, here.z_dot, here.x_dot + rate
-            )
-            area, end, sticking = here.area + area, here.end + end, last.sticking
-            stuck, when = sticking * h, 0.5 * sticking * h * h
-            impulse, force, _ = not_balanced(y, u, rate, held[Y], held[RATE], area, end, body, law, h)
-        else:
-            path, rate, of, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
-            area, moment, stuck, when, _, sticking, back = of
-            last, found = Last(sticking, back), abs(impulse) + abs(force) <= close
-        if found:
-            break
-        dy, du = corrected_balance(impulse, force, stuck, when, sticking, body, law, h)
-        y, u = y - dy, u - du
-    held[Y], held[RATE] = y, rate
-    return path, area, moment, last, found
-
-
-@_inline
-def with_body(y, u, held, path, h):
-    """The motion of the indenter with a light body that moves to y with u; and the rate of the body at the end."""
-    dy = y - held[Y]
-    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + (dy - u) / h, path.x_2 + u / (h * h)), (dy + u) / h
 
 
 @_inline
@@ -316,16 +359,16 @@ def corrected_balance(impulse, force, stuck, when, sticking, body, law, h):
 
 @_inner
 def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
-    """What is left of impulse (over h) and force if a light body moves to y with u; e, s are updated.
-
-    Returns path, rate at the end, what the row answers, impulse, force, and how little of them is none.
+    """What is left of impulse (over h) and force if a light body moves to y with u; how little of them is none; and how
+    it moves. e, s are updated.
     """
     put(e_0, e)
     put(s_0, s)
-    path, rate = with_body(y, u, held, here.path, tools.h)
-    of = row(s, e, springs.gap, springs.w, path, law.T, law.modes, law.arms, tools, here.z_dot, here.x_dot + rate, None)
-    impulse, force, close = not_balanced(y, u, rate, held[Y], held[RATE], of[0], of[4], body, law, tools.h)
-    return path, rate, of, impulse, force, close
+    one = moves(y, u, held[Y], held[RATE], body, tools.times.h)
+    path, rate = moved(here.path, one, one, None)
+    of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, None, None)
+    left = not_balanced(y, u, rate, held[Y], held[RATE], of.area, of.end, body, law, tools.times.h)
+    return left, one
 
 
 @_inner
@@ -336,22 +379,22 @@ def steepest(body, law, h):
 
 @_inner
 def enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools):
-    """y and u of a step of a light body by two searches, one within the other: the force at the end rises with y, and
+    """The step of a light body by two searches, one within the other: the force at the end rises with y, and
     where it is zero, the impulse falls as u grows.
     """
-    y, u, slope = held[Y], 0.0, steepest(body, law, tools.h)
+    y, u, slope = held[Y], 0.0, steepest(body, law, tools.times.h)
     ends_y, ends_u = np.empty(4), np.full(4, np.nan)
     for _ in range(MOST_PLACES):
         ends_y[:] = np.nan
         for _ in range(MOST_PLACES):
-            _, _, _, impulse, force, close = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
+            (impulse, force, close), one = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
             if abs(force) <= 0.1 * close:
                 break
             y = next_place(y, force, slope, ends_y)
         if abs(impulse) <= 0.9 * close:
             break
         u = next_place(u, -impulse, slope, ends_u)
-    return y, u
+    return one
 
 
 @_jit
@@ -382,12 +425,12 @@ def note(trace, j, part, t, path):
 @_jit
 def look(e, s, springs, motion, law, tools, trace, seen):
     """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
-    h, n, kept = tools.h, springs.gap.size, seen.mode.shape[0]
-    mode, f_x, f_z, F = np.empty(n), np.empty(n), np.empty(n), np.empty(3)
+    h, n, kept = tools.times.h, springs.gap.size, seen.mode.shape[0]
+    mode, f_z, f, F = np.empty(n), np.empty(n), np.empty_like(e[0]), np.empty(4)
     for k in range(motion.z.size - 1):
-        path = path_of(motion, k, h, 0.0, 0.0, 0.0, 0.0)
+        path = path_of(motion, k, h)
         for part in range(2):
-            t, x_1, x_2 = trace.way[k, part, 0], trace.way[k, part, 1], trace.way[k, part, 2]
+            t, x_1, x_2 = trace.way[k, part, 0].real, trace.way[k, part, 1], trace.way[k, part, 2]
             if t == 0.0:
                 continue
             now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2)
@@ -397,15 +440,9 @@ def look(e, s, springs, motion, law, tools, trace, seen):
             zd, xd = path.z_1, path.x_1
             if part == 1:
                 zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1] + trace.rate[k]
-            F[:] = 0.0
-            into = Look(nodes, seen.sums, F, mode, f_x, f_z)
-            area, moment, _, _, _, _, _ = row(
-                s, e, springs.gap, springs.w, here, law.T, law.modes, law.arms, now, zd, xd, into
-            )
-            seen.sums[SHEAR_WORK] += x_1 * area + 2.0 * x_2 * moment
-        for m in range(3):
-            seen.F[k, m] = F[m]
+            into = Look(nodes, seen.sums, F, mode, f, f_z)
+            of = all_springs(s, e, springs, here, zd, xd, law, now, None, into)
+            seen.sums[SHEAR_WORK] += along(x_1, of.area) + 2.0 * along(x_2, of.moment)
+        seen.F[k] = F
         if kept > 0:
-            for i in range(n):
-                seen.mode[k, i], seen.f_x[k, i], seen.f_z[k, i] = mode[i], f_x[i], f_z[i]
-                seen.e[k, i], seen.s[k, i] = e[0, i], s[0, i]
+            seen.mode[k], seen.f[k], seen.f_z[k], seen.e[k], seen.s[k] = mode, f, f_z, e[0], s[0]

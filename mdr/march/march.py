@@ -164,9 +164,8 @@ class Observed:
         scaled = self.end.scaled
         if self.end.v_0 != 0:
             return False
-        x, z = self.account.y[1:] + scaled.drive.along.x[1:], scaled.drive.z[1:]
-        y = 0 * x if scaled.drive.across is None else self.account.across[0][1:] + scaled.drive.across.x[1:]
-        bear = np.fft.rfft([z, x, y]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
+        way, z = self.account.y[1:] + self.end.stepper.motion.x[1:], scaled.drive.z[1:]
+        bear = np.fft.rfft([z, way.real, way.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
         press, along, across = np.fft.irfft(bear, scaled.drive.steps)
         if scaled.ways == 2:  # a foot so at rest that the force goes about zero
             away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))

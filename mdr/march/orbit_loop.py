@@ -1,4 +1,4 @@
-"""The compiled search for a state that returns after a period: Anderson's method on the march (loop.py, turning.py)."""
+"""The compiled search for a state that returns after a period: Anderson's method on the march (loop.py)."""
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.loop import copy, march, put
-from mdr.march.turning import march_turning
+from mdr.spring.contact import within
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -87,38 +87,26 @@ def combine(at, image, roots):
 
 
 @_jit
-def within_friction(x, s, is_turning):
-    """Bring the extensions of a state x into the cone of friction: combinations may leave it."""
+def within_friction(e, s):
+    """Bring the extensions into the cone of friction: combinations may leave it."""
     for i in range(s.shape[1]):
-        if is_turning:
-            size = np.hypot(x[i], x[s.size + i])
-            if size > s[0, i]:
-                x[i] *= s[0, i] / size
-                x[s.size + i] *= s[0, i] / size
-        else:
-            x[i] = max(min(x[i], s[0, i]), -s[0, i])
+        e[0, i] = within(e[0, i], s[0, i])
 
 
 @_jit
-def search(at, s, roots, body, springs, slip, flight, motion, law, tools, n_periods, trace, across):
+def search(at, image, e, s, held, s_0, roots, body, side, springs, slip, flight, motion, law, tools, n_periods, trace):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
 
-    s: (1 + J, n) compressions at the start of a period. trace: of the last period. across: None, or the Across of
-    springs whose friction turns.
+    image (n_x,): room for a state, of which e and held are views; s: room, for s_0 (1 + J, n), the compressions at the
+    start of a period. trace: of the last period. The others as of `march`.
     """
-    now, image, n_e, n_t, ended = np.empty_like(s), np.empty_like(at.x), s.size, motion.z.size - 1, False
-    if across is not None:
-        n_e = 2 * n_e
+    n_t, ended = motion.z.size - 1, False
     while n_periods > 0 and not ended:
         n_periods -= 1
         copy(at.x, image)
-        put(s, now)
-        within_friction(image, s, across is not None)
+        put(s_0, s)
+        within_friction(e, s)
         copy(image, at.start)
-        e, held = image[:n_e].reshape((-1, s.shape[1])), image[n_e:]
-        if across is None:
-            march(e, now, held, body, springs, slip, flight, motion, law, tools, n_t, trace)
-        else:
-            march_turning(e, now, held, body, springs, motion, law, tools, n_t, trace, across)
+        march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_t, trace)
         ended = combine(at, image, roots)
     return ended

@@ -163,10 +163,10 @@ def _on_other_springs(xs: Array, of: ScaledContact, on: ScaledContact) -> Array:
     order = np.argsort(of.springs.gap, kind="stable")
     place = np.interp(on.springs.gap, of.springs.gap[order], np.arange(order.size))
     before = np.minimum(place.astype(int), order.size - 2)  # -1 of a single spring is itself
-    n_body = on.ways * N_BODY
-    e = xs[:, :-n_body].reshape(len(xs), -1, order.size)[:, :, order]
+    vectors = xs if on.ways == 1 else xs.view(complex)
+    e = vectors[:, :-N_BODY].reshape(len(xs), -1, order.size)[:, :, order]
     e = e[..., before] + (place - before) * (e[..., before + 1] - e[..., before])
-    return np.concatenate([e.reshape(len(xs), -1), xs[:, -n_body:]], axis=1)
+    return np.concatenate([e.reshape(len(xs), -1), vectors[:, -N_BODY:]], axis=1).view(float)
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:
@@ -218,20 +218,19 @@ class EnergyNorm:
 
     def __init__(self, scaled: ScaledContact) -> None:
         self.scaled = scaled
-        self.n_way = (1 + len(scaled.rheology.rho)) * scaled.springs.gap.size
-        self.n_e = scaled.ways * self.n_way
-        self.n_x = self.n_e + scaled.ways * N_BODY
-        self.roots = np.zeros(self.n_x)  # of the stiffness of every spring, of every arm of it and of the pull
         moduli = np.concatenate([[1.0], scaled.rheology.rho])
-        self.roots[: self.n_e] = np.tile(np.sqrt(np.outer(moduli, scaled.springs.w)).ravel(), scaled.ways)
-        for at, body in self.bodies:
-            self.roots[at + Y], self.roots[at + RATE] = np.sqrt(body.K), np.sqrt(body.M)
+        of_springs = np.sqrt(np.outer(moduli, scaled.springs.w)).ravel()
+        of_bodies = np.zeros((N_BODY, scaled.ways))
+        for way, body in self.bodies:
+            of_bodies[[Y, RATE], way] = np.sqrt([body.K, body.M])
+        # of the stiffness of every spring, of every arm of it and of the pull; of a vector for each of its parts
+        self.roots = np.concatenate([np.repeat(of_springs, scaled.ways), of_bodies.ravel()])
 
     @property
     def bodies(self) -> list[tuple[int, Body]]:
-        """Places in the state and bodies, of those that are not rigid, along the pull and across it."""
+        """Directions, 0 along the pull and 1 across it, and bodies, of those that are not rigid."""
         both = enumerate((self.scaled.body, self.scaled.body_across)[: self.scaled.ways])
-        return [(self.n_e + way * N_BODY, body) for way, body in both if not body.rigid]
+        return [(way, body) for way, body in both if not body.rigid]
 
     def of(self, x: Array) -> Array:
         """State vectors (n_x,) or (k, n_x), measured: vectors of the same shape whose squares are energies."""
@@ -242,14 +241,15 @@ class EnergyNorm:
         velocity of the body; of the springs themselves where there is neither.
         """
         scaled, n = self.scaled, self.scaled.springs.gap.size
-        moved = [(at + part, at + part + 1) for at, body in self.bodies for part in ((Y, RATE) if body.M else (Y,))]
-        for way in range(scaled.ways):
-            first = way * self.n_way
-            rows = [1 + j for j, theta in enumerate(scaled.rheology.theta) if theta > FORGOTTEN]
-            if not rows and not self.bodies:
-                rows = [0]
-            moved += [(first + j * n, first + (j + 1) * n) for j in rows]
-        pushes = np.zeros((len(moved), self.n_x))
-        for push, (start, stop) in zip(pushes, moved, strict=True):
-            push[start:stop] = 1 / np.linalg.norm(self.roots[start:stop])
+        n_x, parts = self.roots.size, 1 + len(scaled.rheology.rho)
+        vectors, moved = np.arange(n_x).reshape(-1, scaled.ways), []
+        for way, body in self.bodies:
+            moved += [vectors[parts * n + part, way] for part in ((Y, RATE) if body.M else (Y,))]
+        rows = [1 + j for j, theta in enumerate(scaled.rheology.theta) if theta > FORGOTTEN]
+        if not rows and not self.bodies:
+            rows = [0]
+        moved += [vectors[j * n : (j + 1) * n, way] for way in range(scaled.ways) for j in rows]
+        pushes = np.zeros((len(moved), n_x))
+        for push, at in zip(pushes, moved, strict=True):
+            push[at] = 1 / np.linalg.norm(np.atleast_1d(self.roots[at]))
         return tuple(pushes)

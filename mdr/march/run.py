@@ -244,7 +244,7 @@ def _why_not(march: Observed) -> str:
 def _recorded(march: Observed) -> dict[str, Any]:
     """The last periods in SI, springs that stand alike each for itself."""
     scaled, springs = march.end.scaled, march.end.springs
-    F_x, F_z, F_y, y, aside, e, s, f_x, f_z, e_y, f_y, mode = (
+    F_x, F_z, F_y, y, e, s, f, f_z, mode = (
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
     )
     n_steps = F_x.size
@@ -253,31 +253,31 @@ def _recorded(march: Observed) -> dict[str, Any]:
     ) * scaled.drive.h / scaled.units.omega
     if scaled.slow.rho:  # they have relaxed about the mean, from which the stiffer springs were counted
         s = s + scaled.slow.sunk
-        e, e_y = (one + scaled.slow.rho * one.mean(axis=0) for one in (e, e_y))
+        e = e + scaled.slow.rho * e.mean(axis=0)
     n = scaled.n_alike
     if n > 1:
-        e, s, f_x, f_z, e_y, f_y, mode = (np.repeat(one, n, axis=1) for one in (e, s, f_x, f_z, e_y, f_y, mode))
+        e, s, f, f_z, mode = (np.repeat(one, n, axis=1) for one in (e, s, f, f_z, mode))
     phase = np.arange(1, n_steps + 1) % scaled.drive.steps
     share, side = springs.width / springs.width.sum(), scaled.drive.across
     across = {}
     if side is not None:
         across = {
-            "u_y": (aside + side.x[phase]) * scaled.units.length_x,
+            "u_y": (y.imag + side.x[phase]) * scaled.units.length_x,
             "F_y": F_y * scaled.units.stiffness_x * scaled.units.length_x,
-            "e_y": e_y * scaled.units.length_x,
-            "f_y": f_y * share * scaled.units.stiffness_x * scaled.units.length_x,
+            "e_y": e.imag * scaled.units.length_x,
+            "f_y": f.imag * share * scaled.units.stiffness_x * scaled.units.length_x,
         }
     return across | {
         "t": t,
-        "u_x": march.end.v_0 * t + (y + scaled.drive.along.x[phase]) * scaled.units.length_x,
+        "u_x": march.end.v_0 * t + (y.real + scaled.drive.along.x[phase]) * scaled.units.length_x,
         "u_z": march.end.case.cycle.u_z0 + scaled.units.length_z * scaled.drive.z[phase],
         "F_x": F_x * scaled.units.stiffness_x * scaled.units.length_x,
         "F_z": F_z * scaled.units.stiffness_z * scaled.units.length_z,
         "x": springs.x,
         "width": springs.width,
-        "e": e * scaled.units.length_x,
+        "e": e.real * scaled.units.length_x,
         "s": s * scaled.units.length_z,
-        "f_x": f_x * share * scaled.units.stiffness_x * scaled.units.length_x,
+        "f_x": f.real * share * scaled.units.stiffness_x * scaled.units.length_x,
         "f_z": f_z * share * scaled.units.stiffness_z * scaled.units.length_z,
         "state": mode,
     }
@@ -287,5 +287,5 @@ def _arrays(record: PeriodRecord) -> tuple[Array | NDArray[np.uint8], ...]:
     """What is kept of a period, at the ends of its steps."""
     seen = record.seen
     forces = seen.F[:, 0], seen.F[:, 1], seen.F[:, 3]
-    springs = seen.e, seen.s, seen.f_x, seen.f_z, seen.e_y, seen.f_y
-    return *forces, record.y[1:], record.across[0][1:], *springs, seen.mode.astype(np.uint8)
+    springs = seen.e, seen.s, seen.f, seen.f_z
+    return *forces, record.y[1:], *springs, seen.mode.astype(np.uint8)

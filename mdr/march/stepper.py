@@ -15,10 +15,9 @@ from mdr.march import loop, orbit_loop
 from mdr.march.body import N_BODY, RATE, Body, Y
 from mdr.march.dimensionless import ScaledContact, Way
 from mdr.march.steady_state import TOLERANCE, UNKNOWN
-from mdr.march.turning import Across, look_turning, march_turning
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
-from mdr.spring.settle import tools_for
-from mdr.spring.step import ROUNDING
+from mdr.spring.path import ROUNDING
+from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
@@ -32,22 +31,23 @@ AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept 
 class MarchState:
     """Springs and body between two periods.
 
-    All that friction can change stands in one vector, of which the named parts are views.
+    All that friction can change stands in one vector, of which the named parts are views: real along a line, complex
+    in the plane.
     """
 
     __slots__ = ("body", "e", "s", "x")
 
     def __init__(self, x: Array, s: Array) -> None:
-        self.x = x  #: (n_x,) extensions, then the body
-        ways = x.size // (s.size + N_BODY)
+        self.x = x  #: (n_x,) extensions, then the body; real parts and imaginary ones in turn
+        vector = x if x.size == s.size + N_BODY else x.view(complex)
         self.s = s  #: (1 + J, n) compressions, and their arms
-        self.e = x[: ways * s.size].reshape(-1, s.shape[1])  #: (1 + J, n) extensions and arms, and those across
-        self.body = x[ways * s.size :]  #: (N_BODY,) see body.py, and the body across
+        self.e = vector[: s.size].reshape(s.shape)  #: (1 + J, n) extensions and arms
+        self.body = vector[s.size :]  #: (N_BODY,) see body.py
 
     @classmethod
     def of(cls, e: Array, s: Array, body: Array) -> MarchState:
         """The state of these parts, copied."""
-        return cls(np.concatenate([e.ravel(), body]), s.copy())
+        return cls(np.concatenate([e.ravel(), body]).view(float), s.copy())
 
     def copy(self) -> MarchState:
         """A state that can be marched on without a change of this one."""
@@ -71,9 +71,8 @@ class PeriodRecord:
     """A period that was looked at closely, in scaled form."""
 
     seen: loop.Seen  #: forces, modes and energies
-    y: Array  #: (n_steps + 1,) the body at the start of the period and at the end of every step
+    y: Array  #: (n_steps + 1,) the body at the start of the period and at the end of every step: complex in the plane
     rate: Array  #: (n_steps + 1,) its velocity there
-    across: tuple[Array, Array]  #: the same two across the pull; zero where nothing moves there
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
     period: Periods  #: its COF and swing
     solved: bool  #: whether every step of it was solved for
@@ -87,13 +86,15 @@ class Stepper:
 
     def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
+        in_plane, self.motion = scaled.ways == 2, scaled.drive.with_pull(v)
         self._parts = (
-            scaled.body,
+            scaled.body if in_plane or not scaled.body.rigid else None,
+            scaled.body_across if in_plane else None,
             scaled.springs,
             *scaled.full_slip_force,
-            scaled.drive.with_pull(v),
+            self.motion,
             scaled.law,
-            tools_for(scaled.law, scaled.drive.h),
+            tools_for(scaled.law, scaled.drive.h, in_plane),
         )
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
@@ -111,10 +112,8 @@ class Stepper:
 
     def _ahead(self, body: Array) -> MarchState:
         """All springs at their limit along the pull, and the body so."""
-        s, nothing = self.scaled.normal.s, self.scaled.ways - 1
-        return MarchState.of(
-            np.concatenate([s, *nothing * [np.zeros_like(s)]]), s, np.r_[body, np.zeros(nothing * N_BODY)]
-        )
+        s, one = self.scaled.normal.s, 1.0 if self.scaled.ways == 1 else 1 + 0j
+        return MarchState.of(one * s, s, one * body)
 
     def rest(self) -> MarchState:
         """The state in which nothing is stretched and the body at rest, from which the pull sets off."""
@@ -133,7 +132,7 @@ class Stepper:
         parts, most = [Periods(*np.empty((3, 0)))], max(1, AT_ONCE // self.scaled.drive.steps)
         state = state.copy()
         for start in range(0, n_periods, most):
-            parts.append(self._periods_of(*self._marched(state, min(most, n_periods - start))))
+            parts.append(self._periods_of(self._marched(state, min(most, n_periods - start))))
             if time_is_over():
                 break
         return state, joined(parts)
@@ -146,41 +145,27 @@ class Stepper:
         (gap, w), drive, pull = self.scaled.springs, self.scaled.drive, 2 * np.pi * self.v
         if pull <= drive.steps * LOST * (1 + np.abs(gap).max()):
             return UNKNOWN if pull else 0.0
-        went = after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])
+        went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
         late = np.abs(went) > WITH_IT * n_periods * pull
         return 2 * float(w[late] @ np.maximum(drive.z.max() - gap[late], 0.0)) / self.mean_F_z
 
-    def _traces(self, n_periods: int) -> tuple[loop.Trace, Across | None]:
-        """Room for what a march leaves, along and across."""
-        trace, way = self.scaled.trace(n_periods), self.scaled.drive.across
-        if way is None:
-            return trace, None
-        return trace, Across(way.x, way.x_dot, self.scaled.body_across, self.scaled.trace(n_periods))
-
-    def _marched(self, state: MarchState, n_periods: int) -> tuple[loop.Trace, Across | None]:
+    def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
-        trace, across = self._traces(n_periods)
+        trace = self.scaled.trace(n_periods)
         n_steps = n_periods * self.scaled.drive.steps
-        if across is None:
-            self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
-        else:
-            body, springs, _, _, *others = self._parts
-            self.solved = march_turning(state.e, state.s, state.body, body, springs, *others, n_steps, trace, across)
+        self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
         self._count(n_periods)
-        return trace, across
+        return trace
 
     def _count(self, n_periods: int) -> None:
         self.n_periods += n_periods
         self.ticker.tick(n_periods)
 
-    def _periods_of(self, trace: loop.Trace, across: Across | None) -> Periods:
+    def _periods_of(self, trace: loop.Trace) -> Periods:
         """COFs and swing of each whole period."""
-        (cof, swing), (cof_y, aside) = (self._means(one) for one in (trace, trace if across is None else across.trace))
-        return Periods(cof, swing, 0 * cof_y) if across is None else Periods(cof, np.maximum(swing, aside), cof_y)
-
-    def _means(self, trace: loop.Trace) -> tuple[Array, Array]:
         area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
-        return area.sum(axis=1) / (2 * np.pi * self.mean_F_z), np.ptp(y, axis=1)
+        cof = area.sum(axis=1) / (2 * np.pi * self.mean_F_z)
+        return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
@@ -188,63 +173,67 @@ class Stepper:
         before, state = state, state.copy()
         kept = n_steps if keep else 0
         nodes = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms)
-        seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_steps, 4)), *np.zeros((7, kept, n)))
-        seen.sums[LEAST_SLIP] = np.inf
-        (trace, across), passed = self._marched(state, 1), before.copy()
-        _, springs, _, _, motion, law, tools = self._parts
-        nothing = np.zeros(n_steps + 1)
-        seen.sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace)
-        if across is None or scaled.drive.across is None:
-            loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
-            seen.sums[LEAST_SLIP] = min(seen.sums[LEAST_SLIP], least_between(seen.F[:, 2]))
-            aside = nothing, nothing
+        like = state.e[0]
+        sums, F, keep_n = np.zeros(N_SUMS), np.zeros((n_steps, 4)), (kept, n)
+        mode, f_z, s = np.zeros((3, *keep_n))
+        f, e = np.zeros((2, *keep_n), like.dtype)
+        seen = loop.Seen(nodes, sums, F, mode, f, f_z, e, s)
+        sums[LEAST_SLIP] = np.inf
+        trace, passed, start = self._marched(state, 1), before.copy(), before.body
+        _, _, springs, _, _, motion, law, tools = self._parts
+        sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
+        loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
+        if scaled.drive.across is None:
+            sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:
-            look_turning(passed.e, passed.s, springs, motion, law, tools, trace, across, seen)
-            seen.sums[SHAKE_WORK] += self._work_of(scaled.drive.across, across.trace)
-            aside = _from(before.body[N_BODY:], across.trace)
+            sums[SHAKE_WORK] += self._work_of(scaled.drive.across, trace.area.imag, trace.moment.imag)
         stored = self.stored_energy(before), self.stored_energy(state)
-        periods = self._periods_of(trace, across)
-        return state, PeriodRecord(seen, *_from(before.body, trace), aside, stored, periods, self.solved)
+        y, rate = np.r_[start[Y], trace.y], np.r_[start[RATE], trace.rate]
+        return state, PeriodRecord(seen, y, rate, stored, self._periods_of(trace), self.solved)
 
-    def _work_of(self, way: Way, trace: loop.Trace) -> float:
+    def _work_of(self, way: Way, area: Array, moment: Array) -> float:
         """Work of a shake, which goes on parabolas."""
         h = self.scaled.drive.h
         x_2 = np.diff(way.x_dot) / (2 * h)
-        return float((np.diff(way.x) / h - x_2 * h) @ trace.area + 2 * x_2 @ trace.moment)
+        return float((np.diff(way.x) / h - x_2 * h) @ area + 2 * x_2 @ moment)
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""
-        orbit_loop.within_friction(state.x, state.s, self.scaled.ways == 2)
+        orbit_loop.within_friction(state.e, state.s)
         return state
 
     def search(self, at: orbit_loop.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
         """Go on with a search for its periodic state, for at most so many periods; whether it has come to its end, and
         the last period, if it was the one that moved least. like: a state of this march.
         """
-        n_before, (trace, across) = int(at.counts[orbit_loop.PERIODS]), self._traces(1)
-        ended = orbit_loop.search(at, like.s, roots, *self._parts, n_periods, trace, across)
+        n_before, trace = int(at.counts[orbit_loop.PERIODS]), self.scaled.trace()
+        image = like.copy()
+        ended = orbit_loop.search(
+            at, image.x, image.e, image.s, image.body, like.s, roots, *self._parts, n_periods, trace
+        )
         self._count(int(at.counts[orbit_loop.PERIODS]) - n_before)
-        return bool(ended), self._periods_of(trace, across)
+        return bool(ended), self._periods_of(trace)
 
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
         scaled, system = self.scaled, 0.0
-        for body, way, pull, at in self.directions:
-            y, u_dot = float(state.body[at + Y]), pull + float(state.body[at + RATE])
+        for body, way, pull, (y, u_dot) in self.directions(*state.body):
+            u_dot += pull
             if way.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
                 u_dot, y = u_dot + float(way.x_dot[0]), y + float(way.x[0] - way.far_end[0])
             system += 0.0 if body.rigid else 0.5 * body.K * y**2 + 0.5 * body.M * u_dot**2
         ratios = np.concatenate([[1.0], scaled.rheology.rho])
-        springs = 0.5 * float(np.tile(ratios, scaled.ways) @ (state.e**2 @ scaled.springs.w))
+        springs = 0.5 * float(ratios @ (np.abs(state.e) ** 2 @ scaled.springs.w))
         normal = 0.5 * float(ratios @ (state.s**2 @ scaled.springs.w))
         return springs + normal * scaled.units.energy_z / scaled.units.energy_x + system
 
-    @property
-    def directions(self) -> list[tuple[Body, Way, float, int]]:
-        """Body, way, velocity of the pull, and place in the state of the body: along the pull, and across it."""
+    def directions(self, y: Array, rate: Array) -> list[tuple[Body, Way, float, tuple[Array, Array]]]:
+        """Body, way, velocity of the pull, and motion and rate of the body, along the pull and across it."""
         drive, aside = self.scaled.drive, self.scaled.drive.across
-        along: list[tuple[Body, Way, float, int]] = [(self.scaled.body, drive.along, self.v, 0)]
-        return along if aside is None else [*along, (self.scaled.body_across, aside, 0.0, N_BODY)]
+        along: list[tuple[Body, Way, float, tuple[Array, Array]]] = [
+            (self.scaled.body, drive.along, self.v, (y.real, rate.real))
+        ]
+        return along if aside is None else [*along, (self.scaled.body_across, aside, 0.0, (y.imag, rate.imag))]
 
 
 def least_between(values: Array) -> float:
@@ -270,8 +259,3 @@ def least_between(values: Array) -> float:
 def joined(parts: list[Periods]) -> Periods:
     """Periods one after the other."""
     return Periods(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-
-
-def _from(before: Array, trace: loop.Trace) -> tuple[Array, Array]:
-    """Motion and rate of a body from the begin of a period on, (n_steps + 1,)."""
-    return np.r_[before[Y], trace.y], np.r_[before[RATE], trace.rate]

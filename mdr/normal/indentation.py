@@ -36,9 +36,10 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Material
 from mdr.normal.indentation_kernels import Row, force_of
 from mdr.normal.load_control import static_depths
+from mdr.spring.contact import Each, press
 from mdr.spring.law import N_PHI, Law, law_of, phi_of
-from mdr.spring.settle import tools_for
-from mdr.spring.step import Path, Tools, press
+from mdr.spring.path import Path
+from mdr.spring.times import Tools, tools_for
 from mdr.tools.arrays import EPS, EXACT, SAME, Array
 from mdr.tools.checks import count, finite_array, instance
 from mdr.tools.messages import short
@@ -309,15 +310,16 @@ class _Springs:
 
     def moved(self, s: Array, u_0: float, u_1: float, step: Tools) -> Array:
         """The springs after the indenter has moved from u_0 to u_1 in a step; at once in one without length."""
-        s, g, since = s.copy(), self.row.g, np.empty(self.row.g.size)
-        if step.h == 0:
+        s, g, each = s.copy(), self.row.g, Each(*np.empty((2, self.row.g.size)))
+        if step.times.h == 0:
             moves = (s[0] < u_1 - g) | ((self.law.T == 0) & (s[0] <= u_0 - g))  # a dashpot does not follow back
             s[1:, moves] += (u_1 - g - s[0])[moves]
             s[0, moves] = (u_1 - g)[moves]
-            press(s, g, g, Path(u_1, 0.0, 0.0, 0.0, 0.0), *self.law, step, since)  # what has no load left is free
+            press(s, g, g, Path(u_1, 0.0, 0.0, 0.0, 0.0), 0.0, *self.law, step, each)  # what has no load left is free
         else:
-            press(s, g, g, Path(u_0, (u_1 - u_0) / step.h, 0.0, 0.0, 0.0), *self.law, step, since)
-            np.copyto(s[0], u_1 - g, where=since > 0)
+            rate = (u_1 - u_0) / step.times.h
+            press(s, g, g, Path(u_0, rate, 0.0, 0.0, 0.0), rate, *self.law, step, each)
+            np.copyto(s[0], u_1 - g, where=each.since > 0)
         return s
 
     def lifted(self, s: Array, step: Tools) -> tuple[Array, float]:

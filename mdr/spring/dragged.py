@@ -24,9 +24,10 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import phi_of
+from mdr.spring.path import FAST, LENT, along, at, since, size_of, slope
 from mdr.tools.jit import inner
 
-_inline = inner(forceinline=True, error_model="numpy", fastmath={"reassoc", "contract"})
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
@@ -34,15 +35,6 @@ TINY = 1e-100  #: of a leash, and of a velocity; its square, and a way over it, 
 SHORT = 1.0  #: square of a way over the leash that counts as short
 EVEN = 2.0  #: times the least leash that the greatest may be, for two nodes to tell how far a way turns a spring
 NO_PHI = (1.0, 1.0, 0.5, 0.0, 0.0)  #: in the place of phi where nothing is viscous
-
-
-class Cubic(NamedTuple):
-    """a + b t + c t² + d t³, a number or a vector."""
-
-    a: complex
-    b: complex
-    c: complex
-    d: complex
 
 
 class Slip(NamedTuple):
@@ -53,26 +45,6 @@ class Slip(NamedTuple):
     area: complex  #: of the force
     moment: complex
     l_m: float
-
-
-@_inline
-def cubic(f, t):
-    """The cubic with the values and slopes of Ends over a time t."""
-    mean = (f.v_1 - f.v_0) * (1.0 / t)
-    c = (3.0 * mean - 2.0 * f.d_0 - f.d_1) * (1.0 / t)
-    return Cubic(f.v_0, f.d_0, c, (f.d_0 + f.d_1 - 2.0 * mean) * (1.0 / (t * t)))
-
-
-@_inline
-def at(f, t):
-    """Value of a cubic."""
-    return f.a + t * (f.b + t * (f.c + t * f.d))
-
-
-@_inline
-def slope(f, t):
-    """Slope of a cubic."""
-    return f.b + t * (2.0 * f.c + 3.0 * t * f.d)
 
 
 @_inline
@@ -87,24 +59,6 @@ def velocity(f, t):
     """Slope of a cubic of vectors."""
     _, b, c, d = f
     return complex(b.real + t * (2.0 * c.real + 3.0 * t * d.real), b.imag + t * (2.0 * c.imag + 3.0 * t * d.imag))
-
-
-@_inline
-def since(f, t):
-    """The same cubic from a time on."""
-    return Cubic(at(f, t), slope(f, t), f.c + 3.0 * f.d * t, f.d)
-
-
-@_inline
-def size_of(a):
-    """Length of a vector; the library's `abs` guards against overflow, and takes several times as long."""
-    return np.sqrt(a.real * a.real + a.imag * a.imag)
-
-
-@_inline
-def along(a, b):
-    """Scalar product of two vectors."""
-    return a.real * b.real + a.imag * b.imag
 
 
 @_inline

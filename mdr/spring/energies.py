@@ -6,10 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
 from mdr.spring.law import phi_of
+from mdr.spring.path import FAST, LENT, along
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
+
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 # the sums, in this order; of the slip velocity the least of springs that touch or leave
 N_SUMS = 9
@@ -85,79 +87,90 @@ def nodes_of(t, modes, arms):
     return nodes
 
 
-@inner(error_model="numpy", fastmath={"reassoc", "contract"})
-def account(sums, mode, s, e, i, w, path, t, whole, T, modes, arms, tools):
-    """Energies of a stretch of a step in one mode, each from its own definition, by a rule over its time t.
-
-    whole: the rule over a whole step.
-    """
-    J, K, nodes = 0, 0, whole if t == tools.h else nodes_of(t, modes, arms)
-    sign = -1.0 if mode == SLIP_BACK else 1.0
-    z_1, z_2, x_1, x_2 = path.z_1, path.z_2, path.x_1, path.x_2
-    if modes is not None and mode != STICK:
-        K = modes.mu.size
-        for k in range(K):
-            press = lag = 0.0
-            for j in range(s.shape[0]):
-                press += modes.into[k, j] * s[j, i]
-                lag += modes.into[k, j] * (e[j, i] if mode == FREE else s[j, i] - sign * e[j, i])
-            tools.more[0, k], tools.more[1, k] = press, lag
-    if arms is not None:
-        J = arms.rho.size
-    pressed = slipped = worked = shear_lost = normal_lost = 0.0
-    for g in range(nodes.u.size):
-        u, weight = nodes.u[g], nodes.weight[g]
-        s_rate, x_rate = z_1 + 2.0 * z_2 * u, x_1 + 2.0 * x_2 * u
-        e_rate, lag_rate, press_rate = x_rate, 0.0, 0.0
-        normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
-        if modes is not None and mode != STICK:
-            for k in range(K):
-                rate = modes.mu[k] * modes.out[0, k] * nodes.decay[g, k]
-                press_rate -= rate * tools.more[0, k]
-                lag_rate -= rate * tools.more[1, k]
-        if mode == FREE:
-            s_rate, e_rate = press_rate, lag_rate
-        elif mode != STICK:
-            e_rate = sign * (s_rate - lag_rate)
-        shear, pressure = T * e_rate * e_rate, T * s_rate * s_rate
-        if arms is not None:
-            for j in range(J):
-                s_j = s[1 + j, i] * nodes.phi[g, 0, j] + z_1 * nodes.phi[g, 1, j] + z_2 * nodes.phi[g, 2, j]
-                normal += arms.rho[j] * s_j
-                if mode == STICK:
-                    e_j = e[1 + j, i] * nodes.phi[g, 0, j] + x_1 * nodes.phi[g, 1, j] + x_2 * nodes.phi[g, 2, j]
-                else:
-                    of_lag = of_press = 0.0
-                    for k in range(K):
-                        part = modes.out[1 + j, k] * nodes.decay[g, k]
-                        of_press += part * tools.more[0, k]
-                        of_lag += part * tools.more[1, k]
-                    s_j, e_j = (of_press, of_lag) if mode == FREE else (s_j, sign * (s_j - of_lag))
-                shear += arms.rho[j] * arms.rate[j] * e_j * e_j
-                pressure += arms.rho[j] * arms.rate[j] * s_j * s_j
-        shear_lost += weight * shear
-        normal_lost += weight * pressure
-        pressed += weight * normal
-        slipped += weight * normal * abs(x_rate - e_rate)
-        worked += weight * normal * s_rate
-    sums[SHEAR_VISCOUS] += w * shear_lost
-    sums[NORMAL_VISCOUS] += w * normal_lost
-    if mode != FREE:
-        sums[CONTACT_IMPULSE] += w * pressed
-        sums[NORMAL_WORK] += w * worked
-        sums[STICK_IMPULSE] += w * pressed if mode == STICK else 0.0
-        sums[FRICTION_LOSS] += w * slipped if mode != STICK else 0.0
-
-
-@inner(error_model="numpy", fastmath={"reassoc", "contract"})
-def lost_on_parabola(x, i, p, q, t, T, arms):
-    """What dashpot and arms of x[:, i] turn into heat over a time in which it is held on p t + q t²."""
-    lost = T * t * (p * p + 2.0 * p * q * t + 4.0 / 3.0 * q * q * t * t)
+@_inline
+def stored(x, i, arms):
+    """Elastic energy of x[:, i]."""
+    energy = along(x[0, i], x[0, i])
     if arms is not None:
         for j in range(arms.rho.size):
-            for g in range(OF_DECAYS.shape[0]):
-                u = t * OF_DECAYS[g, 0]
-                zero, one, two, _, _ = phi_of(u * arms.rate[j])
-                y = x[1 + j, i] * zero + u * (p * one + 2.0 * q * u * two)
-                lost += t * OF_DECAYS[g, 1] * arms.rho[j] * arms.rate[j] * y * y
+            energy += arms.rho[j] * along(x[1 + j, i], x[1 + j, i])
+    return 0.5 * energy
+
+
+@_inline
+def lost_on_parabola(x, i, p, q, nodes, T, arms):
+    """What dashpot and arms of x[:, i] turn into heat over a time in which it is held on p t + q t²."""
+    lost = 0.0
+    for g in range(nodes.u.size):
+        rate = p + 2.0 * q * nodes.u[g]
+        power = T * along(rate, rate)
+        if arms is not None:
+            for j in range(arms.rho.size):
+                y = x[1 + j, i] * nodes.phi[g, 0, j] + p * nodes.phi[g, 1, j] + q * nodes.phi[g, 2, j]
+                power += arms.rho[j] * arms.rate[j] * along(y, y)
+        lost += nodes.weight[g] * power
     return lost
+
+
+@_inline
+def of_pressing(sums, w, s, i, z_1, z_2, nodes, T, arms):
+    """The normal part of a stretch of contact: the impulse of its force is answered."""
+    impulse = work = 0.0
+    for g in range(nodes.u.size):
+        u = nodes.u[g]
+        rate = z_1 + 2.0 * z_2 * u
+        normal = s[0, i] + u * (z_1 + z_2 * u) + T * rate
+        if arms is not None:
+            for j in range(arms.rho.size):
+                normal += arms.rho[j] * (
+                    s[1 + j, i] * nodes.phi[g, 0, j] + z_1 * nodes.phi[g, 1, j] + z_2 * nodes.phi[g, 2, j]
+                )
+        impulse += nodes.weight[g] * normal
+        work += nodes.weight[g] * normal * rate
+    sums[CONTACT_IMPULSE] += w * impulse
+    sums[NORMAL_WORK] += w * work
+    sums[NORMAL_VISCOUS] += w * lost_on_parabola(s, i, z_1, z_2, nodes, T, arms)
+    return impulse
+
+
+@_inline
+def of_sticking(sums, w, e, i, x_1, x_2, impulse, nodes, T, arms):
+    """The tangential part of a stretch in stick, under a normal force of this impulse."""
+    sums[STICK_IMPULSE] += w * impulse
+    sums[SHEAR_VISCOUS] += w * lost_on_parabola(e, i, x_1, x_2, nodes, T, arms)
+
+
+@_inline
+def of_slipping(sums, w, sign, s, e, i, z, x, nodes, T, modes, arms, more):
+    """The tangential part of a stretch of slip along a line: the end of the spring follows e = sign (s - what is left
+    alone). more (K,): room.
+    """
+    (z_1, z_2), (x_1, x_2), K = z, x, 0
+    if modes is not None:
+        K = modes.mu.size
+        for k in range(K):
+            more[k] = 0.0
+            for j in range(s.shape[0]):
+                more[k] += modes.into[k, j] * (s[j, i] - sign * e[j, i])
+    lost = slipped = 0.0
+    for g in range(nodes.u.size):
+        u = nodes.u[g]
+        s_rate, left_rate = z_1 + 2.0 * z_2 * u, 0.0
+        normal = s[0, i] + u * (z_1 + z_2 * u) + T * s_rate
+        if modes is not None:
+            for k in range(K):
+                left_rate -= modes.mu[k] * modes.out[0, k] * nodes.decay[g, k] * more[k]
+        e_rate = sign * (s_rate - left_rate)
+        power = T * e_rate * e_rate
+        if arms is not None:
+            for j in range(arms.rho.size):
+                s_j = s[1 + j, i] * nodes.phi[g, 0, j] + z_1 * nodes.phi[g, 1, j] + z_2 * nodes.phi[g, 2, j]
+                left = 0.0
+                for k in range(K):
+                    left += modes.out[1 + j, k] * nodes.decay[g, k] * more[k]
+                normal += arms.rho[j] * s_j
+                power += arms.rho[j] * arms.rate[j] * (s_j - left) ** 2
+        lost += nodes.weight[g] * power
+        slipped += nodes.weight[g] * normal * abs(x_1 + 2.0 * x_2 * u - e_rate)
+    sums[SHEAR_VISCOUS] += w * lost
+    sums[FRICTION_LOSS] += w * slipped

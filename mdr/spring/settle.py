@@ -8,8 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.spring.contact import Each, press
 from mdr.spring.law import Law
-from mdr.spring.step import Path, Tools, new_tools, press
+from mdr.spring.path import Path
+from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
@@ -39,11 +41,6 @@ class NormalPeriod:
         return float(self.area.sum()) / (2 * np.pi)
 
 
-def tools_for(law: Law, h: float) -> Tools:
-    """`new_tools` of a law."""
-    return Tools(*new_tools(float(h), law.modes, law.arms))
-
-
 def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool = False) -> NormalPeriod | None:
     """The periodic motion under the depth z (n_t + 1,), of rate z_dot; None if springs with arms find none.
 
@@ -70,7 +67,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     forgotten = np.append(1.0, -np.expm1(-2 * np.pi * rate))[:, None]
     who, trust, before, change = np.arange(n), np.ones(n), np.full(n, np.inf), np.zeros(n)
     (tried, move), (tries, moves) = np.zeros((2, *s.shape)), np.zeros((2, memory, *s.shape))
-    for turn in range(MOST_PASSES if rho.size else min(1, tools.decay.shape[1])):
+    for turn in range(MOST_PASSES if rho.size else min(1, tools.times.decay.shape[1])):
         start, x = s[:, who], s[:, who].copy()
         pass_through(x, who, none, none)
         s[:, who] = x
@@ -104,25 +101,20 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
 @compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # type: ignore[no-untyped-def]
     """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (5, n_t)."""
-    h, now = tools.h, np.empty(gap.size)
+    h, n = tools.times.h, gap.size
+    each = Each(np.empty(n), np.empty(n))
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
-        before, end, pressed, flies = 0.0, 0.0, 0.0, True
-        for i in range(gap.size):
+        before, flies = 0.0, True
+        for i in range(n):
             before += w[i] * s[0, i]
             flies = flies and s[0, i] > z[k] - gap[i]
-        area, moment = press(s, gap, w, path, T, modes, arms, tools, now)
-        for i in range(gap.size):
-            normal = s[0, i] + T * z_dot[k + 1]
-            if arms is not None:
-                for j in range(arms.rho.size):
-                    normal += arms.rho[j] * s[1 + j, i]
-            normal = max(normal, 0.0) if now[i] > 0.0 else 0.0
-            pressed = max(pressed, now[i])
-            end += w[i] * normal
-            if force.shape[0] > 0:
-                force[k, i], since[k, i] = normal, now[i]
-        sums[0, k], sums[1, k], sums[2, k], sums[3, k], sums[4, k] = area, moment, end, before, 0.0
+        of = press(s, gap, w, path, z_dot[k + 1], T, modes, arms, tools, each)
+        if force.shape[0] > 0:
+            force[k], since[k] = each.force, each.since
+        pressed, flight = each.since.max(), 0.0
         if flies and pressed > 0.0:
-            sums[4, k] = h * max(1.0 - pressed - EARLY, 0.0)
+            flight = h * max(1.0 - pressed - EARLY, 0.0)
+        sums[0, k], sums[1, k], sums[2, k] = of.normal_area, of.normal_moment, of.normal_end
+        sums[3, k], sums[4, k] = before, flight

@@ -7,52 +7,28 @@ vectorised, works out all modes for every spring, keeps the one that surely hold
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from mdr.spring.dragged import (
-    EVEN,
-    NO_PHI,
-    Cubic,
-    along,
-    area_and_moment,
-    at,
-    force_and_rates,
-    is_short,
-    point,
-    scaled,
-    size_of,
-    slid,
-    slope,
-)
+from mdr.spring.contact import Answer
+from mdr.spring.dragged import EVEN, NO_PHI, area_and_moment, force_and_rates, is_short, point, scaled, slid
 from mdr.spring.law import phi_of
-from mdr.spring.step import ROUNDING
+from mdr.spring.path import FAST, LENT, ROUNDING, Cubic, along, at, size_of, slope
 from mdr.tools.jit import inner
 
 TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
 
 
-class Whole(NamedTuple):
-    """What these springs add to the sums of a row."""
+@inner(error_model="numpy", fastmath=FAST, **LENT)
+def whole(s, e, gap, w, path, h, T, modes, each, made):
+    """The springs that do one thing for all of a step h: their Answer.
 
-    area: complex
-    moment: complex
-    end: complex
-    sticking: float
-
-
-@inner(error_model="numpy", fastmath={"reassoc", "contract"}, _nrt=False)
-def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
-    """The springs that do one thing for all of a step h: what they add to the sums of a row.
-
-    s, x, y (n,): compressions and extensions. made (4 n,) is filled with what these come to, and then one; or with
+    s, e (n,): compressions and extensions. made (4 n,) is filled with what these come to, and then one; or with
     zero for a spring that is left alone. One array and steady strides, or else the loop is not vectorised.
     """
     viscous, z_1, z_2 = modes is not None, path.z_1, path.z_2
     if not viscous:
         T = 0.0
-    p, q = complex(path.x_1, y_1), complex(path.x_2, y_2)
+    p, q = path.x_1, path.x_2
     v = Cubic(complex(p.real + 2.0 * T * q.real, p.imag + 2.0 * T * q.imag), scaled(2.0, q), 0.0j, 0.0j)
     last, fast = point(v, h), size_of(v.a)
     phi = phi_of(h / T) if viscous else NO_PHI
@@ -68,11 +44,12 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
     bulge = 0.25 * h * h * (size_of(q) + max(z_2, 0.0))  # by which a force may come nearer to the rim than at both ends
     sink, go, top = h * (z_1 + h * z_2), scaled(h, p) + scaled(h * h, q), p + scaled(2.0 * h, q)
     area_x = area_y = moment_x = moment_y = end_x = end_y = sticking = 0.0
+    share = pressed = pressed_moment = pressed_end = 0.0
     for i in range(gap.size):
-        tol, z_0, e = ROUNDING * (1.0 + abs(gap[i])), path.z_0 - gap[i], complex(x[i], y[i])
+        tol, z_0, e_0 = ROUNDING * (1.0 + abs(gap[i])), path.z_0 - gap[i], e[i]
         R = Cubic(base.a - gap[i], base.b, base.c, 0.0)
         R_1 = at(R, h)
-        g, f = e + scaled(T, p), e + go + scaled(T, top)
+        g, f = e_0 + scaled(T, p), e_0 + go + scaled(T, top)
         rho = size_of(g)
         out, out_1 = rho - R.a, size_of(f) - R_1
         s_0, touches = s[i], (s[i] <= z_0 + tol) & (lowest - gap[i] > 0.0)
@@ -91,9 +68,9 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         even = EVEN * (lowest - gap[i] + T * vel) >= max(R.a, R_1) + T * vel
         slips = touches & begins & (l_1 >= 0.0) & short & even & (rho > TOUCHING * h * fast)
         # stick
-        held = scaled(h, e + scaled(0.5 * h, p) + scaled(h * h / 3.0, q)) + scaled(T, go)
-        lever = scaled(h * h, scaled(0.5, e) + scaled(h / 3.0, p) + scaled(0.25 * h * h, q))
-        lever += scaled(T * h, e + go) - scaled(T, held - scaled(T, go))
+        held = scaled(h, e_0 + scaled(0.5 * h, p) + scaled(h * h / 3.0, q)) + scaled(T, go)
+        lever = scaled(h * h, scaled(0.5, e_0) + scaled(h / 3.0, p) + scaled(0.25 * h * h, q))
+        lever += scaled(T * h, e_0 + go) - scaled(T, held - scaled(T, go))
         w_i = w[i]
         area_x += w_i * (held.real if sticks else (area.real if slips else 0.0))
         area_y += w_i * (held.imag if sticks else (area.imag if slips else 0.0))
@@ -102,11 +79,19 @@ def whole(s, x, y, gap, w, path, y_1, y_2, h, T, modes, made):
         end_x += w_i * (f.real if sticks else (f_1[0].real if slips else 0.0))
         end_y += w_i * (f.imag if sticks else (f_1[0].imag if slips else 0.0))
         sticking += w_i if sticks else 0.0
+        bears = w_i if sticks | slips else 0.0
+        share += bears
+        pressed += bears * h * (R.a + h * (0.5 * R.b + h / 3.0 * R.c))
+        pressed_moment += bears * h * h * (0.5 * R.a + h * (R.b / 3.0 + 0.25 * h * R.c))
+        pressed_end += bears * R_1
+        if each is not None:
+            each.since[i], each.force[i] = (1.0, R_1) if sticks | slips else (0.0, 0.0)
         e_1 = scaled(R_1 + T * l_1, n_1) - scaled(T, top)
-        e_1 = e + go if sticks else e_1
+        e_1 = e_0 + go if sticks else e_1
         made[4 * i + 0] = fallen * s_0 if flies else z_0 + sink
-        made[4 * i + 1] = fallen * e.real if flies else e_1.real
-        made[4 * i + 2] = fallen * e.imag if flies else e_1.imag
+        made[4 * i + 1] = fallen * e_0.real if flies else e_1.real
+        made[4 * i + 2] = fallen * e_0.imag if flies else e_1.imag
         made[4 * i + 3] = 1.0 if sticks | slips | flies else 0.0
     area, moment, end = complex(area_x, area_y), complex(moment_x, moment_y), complex(end_x, end_y)
-    return Whole(area, moment, end, sticking)
+    stuck = h * sticking
+    return Answer(area, moment, end, stuck, 0.5 * h * stuck, sticking, 0.0, pressed, pressed_moment, pressed_end, share)

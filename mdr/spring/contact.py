@@ -1,0 +1,221 @@
+"""One spring over one step of time, in contact or in flight: its normal motion, in which friction has no part.
+
+In a step the top of the spring moves on parabolas, z_1 t + z_2 t² down and x_1 t + x_2 t² in the plane. With the
+compression s, the extension e and the law L of the material (law.py) a spring
+
+* *presses*: s goes with the top, until its force L[s] comes to zero;
+* *flies*: s and e relax with nothing to hold them, until the indenter meets the surface, z - gap = s.
+
+While it presses, friction moves e: a function of a stretch of contact that is handed in (line.py, disc.py), or None.
+What happens is exact from event to event, so that the only error of a step is that of the parabolas. Elastic springs,
+dashpots (Kelvin) and Maxwell arms are one text: what a material lacks is None, and compiled away.
+"""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
+from mdr.spring.energies import LEAST_SLIP, NORMAL_VISCOUS, SHEAR_VISCOUS, Nodes, stored
+from mdr.spring.motion import alone, end_force, glassy, held_force, hold, into_modes, relax, until_alone, until_held
+from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, along, below, on_parabola, plus, size_of, stays
+from mdr.spring.times import PART, STEP, fill
+from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled, inner
+
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+_call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
+
+MOST_EVENTS = 100  #: of a spring in one step; what comes after the last would be left out
+
+
+class Answer(NamedTuple):
+    """What a row of springs answers of a step: sums over the springs, each weighted by its share of the stiffness.
+
+    Forces and their moments about the begin of the step are numbers along a line, vectors in the plane.
+    """
+
+    area: complex  #: of the tangential force over the time
+    moment: complex
+    end: complex  #: the force at the end
+    stuck: float  #: time in stick
+    when: float  #: its moment
+    sticking: float  #: share that sticks at the end
+    back: float  #: share that slips back there
+    normal_area: float  #: of the normal force
+    normal_moment: float
+    normal_end: float
+    pressed: float  #: share that bears a normal force at the end
+
+
+class Friction(NamedTuple):
+    """What friction does over a stretch of contact."""
+
+    mode: int  #: at its end
+    n: complex  #: direction of the force there, where the spring slips
+    vel: float  #: slip velocity there, where it is asked for
+    area: complex  #: of the tangential force over the stretch
+    moment: complex  #: about the begin of the step
+    stuck: float  #: time in stick
+    when: float  #: its moment
+    normal_area: float
+    normal_moment: float
+
+
+class Each(NamedTuple):
+    """What is asked of each of n springs at the end of a step without a look."""
+
+    since: Array  #: (n,) share of the step for which it has pressed; zero in flight
+    force: Array  #: (n,) normal force over its stiffness
+
+
+class Look(NamedTuple):
+    """What a close look at a step fills, of n springs."""
+
+    nodes: Nodes  #: over the whole step
+    sums: Array  #: (N_SUMS,) of which it adds up
+    F: Array  #: (4,) at the end of the step: forces along and normal, least slip velocity in contact, force across
+    mode: Array  #: (n,) of each spring at the end of the step
+    f: Array  #: (n,) its tangential force over its stiffness: numbers along a line, vectors in the plane
+    f_z: Array  #: (n,) its normal force likewise
+
+
+@_inline
+def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, tools):
+    """Whether spring i presses or flies, as it did at the event before, and until when: infinite for the time t."""
+    x, until, fallen, rate, of_force = s[0, i], NEVER, 0.0, 0.0, tol * G
+    if presses:
+        normal = held_force(s, i, z_1, z_2, t, k, T, tools, arms)
+        presses = event > 0 or not below(normal, of_force)
+    if presses and not stays(normal, t, of_force):
+        until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, of_force, T, modes, arms, tools)
+    if not presses:
+        if modes is not None:
+            rate, fallen = modes.mu[0], tools.times.decay[k, 0]
+        left, _ = alone(x, rate, fallen)
+        if arms is not None:
+            left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
+        apart = plus(left, -1.0, on_parabola(z_0, z_1, z_2, 0.0, t))
+        if not stays(apart, t, tol):
+            until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+    return presses, until
+
+
+@_inline
+def direction(a):
+    """That of a number or a vector; nothing of nothing."""
+    size = size_of(a)
+    return a / size if size > 0.0 else 0.0 * a
+
+
+@_inline
+def within(f, R):
+    """A force, no longer than R."""
+    return f * (R / size_of(f)) if along(f, f) > R * R else f
+
+
+@_inline
+def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    """Springs over a step. rub: the friction over a stretch of contact; or None, as e, for the normal part alone. who:
+    numbers of the springs, or None for all. The others as of row.py. What is None is compiled away.
+    """
+    h, G = tools.times.h, glassy(arms)
+    area = moment = end = nothing = 0.0 * path.x_1  # a number or a vector
+    stuck = when = sticking = back = 0.0
+    normal_area = normal_moment = normal_end = pressed = 0.0
+    if look is not None:
+        look.F[2] = np.inf
+    off = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
+    if excess is not None:
+        for j in range(s.shape[0]):
+            excess[j, 0] = 0.0
+    n_who = gap.size
+    if who is not None:
+        n_who = who.size
+    for m in range(n_who):
+        i = m
+        if who is not None:
+            i = who[m]
+        tol = ROUNDING * (1.0 + abs(gap[i]))
+        z_0, z_1, t, done, k, since, mode = path.z_0 - gap[i], path.z_1, h, 0.0, STEP, 0.0, FREE
+        n, vel = nothing, 0.0
+        presses = s[0, i] <= z_0 + tol
+        if presses:
+            s[0, i] = z_0
+        for event in range(MOST_EVENTS):
+            presses, until = lasts(presses, event, s, i, z_0, z_1, path.z_2, t, k, tol, G, T, modes, arms, tools)
+            ends = until < t
+            if ends:
+                t, k = until, PART
+                fill(t, modes, arms, tools.times, PART)
+            if not presses:
+                mode, since, before = FREE, 0.0, (0.0, 0.0)
+                if look is not None:
+                    before = stored(s, i, arms), stored(e, i, arms)
+                relax(s, i, k, modes, arms, tools.room.modes, tools.times)
+                if e is not None:
+                    relax(e, i, k, modes, arms, tools.room.vectors, tools.times)
+                if look is not None:
+                    look.sums[NORMAL_VISCOUS] += w[i] * (before[0] - stored(s, i, arms))
+                    look.sums[SHEAR_VISCOUS] += w[i] * (before[1] - stored(e, i, arms))
+            elif t > ROUNDING * h:
+                since += t
+                if rub is None:
+                    A, B = hold(s, i, z_1, path.z_2, t, k, T, tools, arms)
+                    mode, normal_area, normal_moment = (
+                        STICK,
+                        normal_area + w[i] * A,
+                        normal_moment + w[i] * (done * A + B),
+                    )
+                else:
+                    z, x = (z_1, path.z_2), (path.x_1 + 2.0 * path.x_2 * done, path.x_2)
+                    of = rub(s, e, i, w[i], z, x, t, k, done, tol, off, T, modes, arms, tools, look)
+                    mode, n, vel = of.mode, of.n, of.vel
+                    area, moment = area + w[i] * of.area, moment + w[i] * of.moment
+                    stuck, when = stuck + w[i] * of.stuck, when + w[i] * of.when
+                    normal_area = normal_area + w[i] * of.normal_area
+                    normal_moment = normal_moment + w[i] * of.normal_moment
+            if not ends:
+                break
+            if look is not None and presses:
+                look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], vel)
+            done += t
+            z_0, z_1, presses = z_0 + t * (z_1 + t * path.z_2), z_1 + 2.0 * path.z_2 * t, not presses
+            if presses:
+                if e is not None:  # the rounding of the touch is that of both, so that full slip stays what it is
+                    e[0, i] += direction(e[0, i]) * (z_0 - s[0, i])
+                s[0, i] = z_0
+            t, k = h - done, PART
+            fill(t, modes, arms, tools.times, PART)
+        R, f = 0.0, nothing
+        if mode != FREE:
+            R = max(end_force(s, i, zd, T, arms), 0.0)
+            normal_end += w[i] * R
+            pressed += w[i] if R > 0.0 else 0.0
+            if rub is not None:
+                f = within(end_force(e, i, xd, T, arms), R) if mode == STICK else n * R
+                end += w[i] * f
+                sticking += w[i] if mode == STICK else 0.0
+                back += w[i] if mode == SLIP_BACK else 0.0
+                if excess is not None:
+                    for j in range(s.shape[0]):
+                        left = e[j, i] - s[j, i] if mode == STICK else -2.0 * s[j, i] if mode == SLIP_BACK else 0.0
+                        excess[j, 0] += w[i] * left
+        if each is not None:
+            each.since[i], each.force[i] = since / h if h > 0.0 else 0.0, R
+        if look is not None:
+            if mode != FREE:
+                look.F[2] = min(look.F[2], vel)
+            look.mode[i], look.f[i], look.f_z[i] = mode, f, R
+    if look is not None:
+        look.F[0], look.F[1], look.F[3] = end.real, normal_end, end.imag
+    return Answer(area, moment, end, stuck, when, sticking, back, normal_area, normal_moment, normal_end, pressed)
+
+
+@_call
+def press(s, gap, w, path, zd, T, modes, arms, tools, each):
+    """The normal part of `row` (row.py) alone; s is updated."""
+    return one_row(None, None, s, None, gap, w, path, zd, 0.0, T, modes, arms, tools, None, each, None)

@@ -1,0 +1,371 @@
+"""Coulomb friction in the plane: |L[e]| <= R in length, with the extension e (a vector) and R = L[s], over a stretch of
+contact: a disc in the place of the interval of line.py.
+
+* *stick*: e goes with the top, L[e] is known, until its length comes to R;
+* *slip*: |L[e]| = R, along the slip velocity, which turns (dragged.py), until that velocity comes to zero.
+
+Arms remember the slip, which depends on their memory: the two are brought in line with each other.
+"""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from mdr.spring.contact import MOST_EVENTS, Friction
+from mdr.spring.contact_modes import SLIP, STICK
+from mdr.spring.dragged import EVEN, TINY, Slip, slides
+from mdr.spring.energies import (
+    FRICTION_LOSS,
+    LEAST_SLIP,
+    SHEAR_VISCOUS,
+    lost_on_parabola,
+    nodes_of,
+    of_pressing,
+    of_sticking,
+)
+from mdr.spring.law import phi_of
+from mdr.spring.motion import end_force, glassy, held_force, hold
+from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, since, size_of, slope
+from mdr.spring.times import PART, fill
+from mdr.spring.whole import TOUCHING
+from mdr.tools.jit import inner
+
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+
+BEGINS = -1  #: the mode is still to be found
+MOST_HALVINGS = 60  #: in the search for the end of a mode
+SHORTEST = 1 / 256  #: part of a step that slip is followed for at once, however its leash changes
+MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
+
+
+class Way(NamedTuple):
+    """The way p t + q t² of the top, or of the end of a spring."""
+
+    p: complex
+    q: complex
+
+
+class Start(NamedTuple):
+    """A spring in contact as a stretch of time begins."""
+
+    g: complex  #: force of its trial, if it sticks
+    a: complex  #: sum of rho_j e_j/theta_j
+    v: complex  #: what drives its slip, of dragged.py
+    n: complex  #: direction in which it slips, or would
+    vel: float  #: slip velocity
+    ahead: float  #: v.n - R'
+
+
+class Bracket(NamedTuple):
+    """Two times between which a function has a zero, and its values there."""
+
+    low: float
+    high: float
+    f_low: float
+    f_high: float  #: not zero
+    side: int  #: which of the two the last look has moved
+
+
+class Stretch(NamedTuple):
+    """What friction does over a time in one mode."""
+
+    t: float
+    lasts: bool  #: whether the mode lasts for all of the time that was given
+    n: complex  #: direction of the slip at its end
+    vel: float  #: slip velocity there
+    area: complex  #: of the force over the time
+    moment: complex
+
+
+@_inline
+def memory(e, i, arms):
+    """sum rho_j e_j/theta_j of spring i."""
+    total = 0.0j
+    for j in range(arms.rho.size):
+        total += arms.rho[j] * arms.rate[j] * e[1 + j, i]
+    return total
+
+
+# --- brackets ---
+
+
+@_inline
+def between(b):
+    """Where the line through the two ends of a bracket is zero."""
+    return (b.low * b.f_high - b.high * b.f_low) / (b.f_high - b.f_low)
+
+
+@_inline
+def nearer(b, mid, f):
+    """A bracket after a look at mid, by regula falsi (the Illinois method)."""
+    if (f < 0.0) == (b.f_high < 0.0):
+        return Bracket(b.low, mid, b.f_low * (0.5 if b.side > 0 else 1.0), f, 1)
+    return Bracket(mid, b.high, f, b.f_high * (0.5 if b.side < 0 else 1.0), -1)
+
+
+# --- stick ---
+
+
+@_inline
+def excess(f, R, t):
+    """By how much a force is outside its disc at a time."""
+    return size_of(at(f, t)) - at(R, t)
+
+
+@_inline
+def leaves(f, R, t):
+    """Half the rate of the square of a force less that of its disc."""
+    return along(at(f, t), slope(f, t)) - at(R, t) * slope(R, t)
+
+
+@_inline
+def until_outside(f, R, t, tol):
+    """Two times between which the force f leaves the disc R, both cubics: inside at the first, or on the rim; outside
+    at the second, or beyond t if it does not leave.
+    """
+    high = 0.0
+    for half in range(2):
+        low, high = high, 0.5 * (half + 1) * t
+        if excess(f, R, high) > tol:
+            return low, high
+        b = Bracket(low, high, leaves(f, R, low), leaves(f, R, high), 0)
+        if b.f_low > 0.0 and b.f_high < 0.0:  # nearest to the rim in between
+            mid = low
+            for _ in range(MOST_HALVINGS):
+                mid = between(b)
+                rate = leaves(f, R, mid)
+                if rate == 0.0 or b.high - b.low <= 1e-9 * t:
+                    break
+                b = nearer(b, mid, rate)
+            if excess(f, R, mid) > tol:
+                return low, mid
+    return t, NEVER
+
+
+@_inline
+def until_slip(f, R, t, tol):
+    """When the force f of a spring that sticks leaves the disc R, both cubics; t if it does not."""
+    low, high = until_outside(f, R, t, tol)
+    if high > t:
+        return t
+    if excess(f, R, low) > -tol and leaves(f, R, low) < 0.0:  # from the rim inward, and out again later
+        part = high - low
+        for _ in range(MOST_HALVINGS):
+            part *= 0.5
+            out = excess(f, R, low + part)
+            if out < -tol:
+                low += part
+                break
+            if out > tol:
+                high = low + part
+    b = Bracket(low, high, min(excess(f, R, low), -0.0), excess(f, R, high), 0)
+    for _ in range(MOST_HALVINGS):
+        if b.high - b.low <= 1e-15 * t:
+            break
+        mid = between(b)
+        out = excess(f, R, mid)
+        if abs(out) <= 0.1 * tol:
+            return mid
+        b = nearer(b, mid, out)
+    return b.high
+
+
+@_inline
+def sticks(e, i, w, top, R, t, k, tol, T, modes, arms, tools, look):
+    """Stick from now on, for as long as it lasts."""
+    until = until_slip(cubic(held_force(e, i, top.p, top.q, t, k, T, tools, arms), t), R, t, tol)
+    lasts = until >= t
+    if not lasts:
+        t, k = until, PART
+        if arms is not None:
+            fill(t, None, arms, tools.times, PART)
+    if look is not None:
+        impulse = t * (at(R, 0.0) + 4.0 * at(R, 0.5 * t) + at(R, t)) / 6.0
+        nodes = look.nodes if t == tools.times.h else nodes_of(t, modes, arms)
+        of_sticking(look.sums, w, e, i, top.p, top.q, impulse, nodes, T, arms)
+        look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], 0.0)
+    area, moment = hold(e, i, top.p, top.q, t, k, T, tools, arms)
+    return Stretch(t, lasts, 0.0j, 0.0, area, moment)
+
+
+# --- slip ---
+
+
+@_inline
+def remembered(e, i, p, p_fast, q, t, k, keep, tools, arms):
+    """What the arms of spring i, held on p t + q t² for a time t, come to: the sums of rho_j e_j, of rho_j e_j/theta_j,
+    and the mean of the latter over the time. Fast arms, of theta_j < h, are held on p_fast t + q t². keep: True stores
+    what they come to.
+    """
+    of = tools.times.arms[k]
+    one = two = mean = 0.0j
+    for j in range(arms.rho.size):
+        before, rate, is_fast = e[1 + j, i], arms.rate[j], arms.rate[j] * tools.times.h > 1.0
+        first = p_fast if is_fast else p
+        after = before * of[0, j] + first * of[1, j] + q * of[2, j]
+        area = before * of[3, j] + first * of[4, j] + q * of[5, j]
+        if keep:
+            e[1 + j, i] = after
+        one += arms.rho[j] * after
+        two += arms.rho[j] * rate * after
+        mean += rate * area * (1.0 / t)
+    return one, two, mean
+
+
+@_inline
+def arms_give(t, k, G, T, tools, arms):
+    """By how much the length of an extension over a time t exceeds that of its slow arms; and the memory of its fast
+    ones its slip velocity at the end.
+    """
+    per, back, gives = t, 0.0, 1.0 / G
+    for j in range(arms.rho.size):
+        if arms.rate[j] * tools.times.h > 1.0:
+            back += arms.rho[j] * arms.rate[j] * tools.times.arms[k, 2, j] / (2.0 * t)
+        else:
+            per += arms.rho[j] * tools.times.arms[k, 1, j]
+    if T > 0.0:
+        gives = 0.5 * t / T * phi_of(0.5 * G * t / T)[2]
+    return per, gives * back
+
+
+@_inline
+def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
+    """Slip over a time, and the way on which it takes the end of the spring: a parabola with the true rates at both
+    ends, shifted so that the force is. The memory of arms and their slip are brought in line with each other.
+    """
+    rate_0, rate_1 = top.p - start.vel * start.n, top.p + 2.0 * t * top.q
+    v, way = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Way(rate_0, 0.0j)
+    of, per, back, turns, others = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), t, 0.0, 1, 0.0j
+    if arms is not None:
+        per, back = arms_give(t, k, G, T, tools, arms)
+        turns = MOST_RETURNS
+    for _ in range(turns):
+        if arms is not None:
+            # by the parabola of both ends and the mean, as R goes: then what relaxes with the disc does not slip
+            _, last, mean = remembered(e, i, way.p, rate_0, way.q, t, k, False, tools, arms)
+            last, mean = last - start.a, mean - start.a
+            b, c = (6.0 * mean - 2.0 * last) * (1.0 / t), (6.0 * mean - 3.0 * last) * (1.0 / (t * t))
+            v = Cubic(start.v, 2.0 * G * top.q - b, c, 0.0j)
+        known = back * of.vel
+        of = slides(start.n, start.vel, t, v, R, T, G, midway)
+        if arms is not None:
+            of = Slip(of.n, (of.vel - known) / (1.0 - back), of.area, of.moment, of.l_m)
+        q = (rate_1 - of.vel * of.n - rate_0) * (0.5 / t)
+        if arms is not None:
+            others, _, _ = remembered(e, i, -t * q, rate_0, q, t, k, False, tools, arms)
+        end = (max(at(R, t), 0.0) + T * of.vel) * of.n - T * rate_1
+        way = Way((end - e[0, i] - others) * (1.0 / per) - t * q, q)
+    return of, way
+
+
+@_inline
+def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
+    """Slip from now on, for as long as it lasts: until its velocity falls below zero. forced: it lasts in any case."""
+    h = tools.times.h
+    lasts, b = True, Bracket(0.0, t, start.vel, 0.0, 0)
+    of, way = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Way(0.0j, 0.0j)
+    for turn in range(MOST_HALVINGS):
+        of, way = slip_over(e, i, top, start, R, t, k, look is not None, G, T, arms, tools)
+        if turn == 0:
+            if forced or of.vel >= 0.0:
+                break
+            lasts = False
+            b = Bracket(0.0, t, start.vel, of.vel, 0)
+        else:
+            b = nearer(b, t, of.vel)
+        if (b.high - b.low <= 1e-14 * h and t == b.high) or b.f_low <= 0.0 or abs(of.vel) <= 1e-14 * start.vel:
+            break
+        t = max(between(b), ROUNDING * h)
+        if not b.low < t < b.high:
+            t = 0.5 * (b.low + b.high)
+        if b.high - b.low <= 1e-14 * h:
+            t = b.high
+        k = PART
+        if arms is not None:
+            fill(t, None, arms, tools.times, PART)
+    if not lasts and b.f_low <= 0.0 and b.low == 0.0:  # it does not slip at all
+        return Stretch(0.0, False, 0.0j, 0.0, 0.0j, 0.0j)
+    vel, R_0, R_m, R_1 = max(of.vel, 0.0) if lasts else 0.0, max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
+    if look is not None:
+        nodes = look.nodes if t == h else nodes_of(t, modes, arms)
+        look.sums[SHEAR_VISCOUS] += w * lost_on_parabola(e, i, way.p, way.q, nodes, T, arms)
+        of_slip = R_0 * start.vel + 4.0 * R_m * max(of.l_m, 0.0) + R_1 * vel
+        look.sums[FRICTION_LOSS] += w * t / 6.0 * of_slip
+        look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], start.vel, vel)
+    end = (R_1 + T * vel) * of.n - T * (top.p + 2.0 * t * top.q)
+    if arms is not None:
+        others, _, _ = remembered(e, i, way.p, top.p - start.vel * start.n, way.q, t, k, True, tools, arms)
+        end -= others
+    e[0, i] = end
+    return Stretch(t, lasts, of.n, vel, of.area, of.moment)
+
+
+@_inline
+def even_part(R, more, t, shortest):
+    """How much of a time t to follow slip for at once, on the leash R + more, R a cubic: two nodes tell how far it
+    turns the spring only where it does not change much.
+    """
+    u, first = t, R.a + more
+    while u > shortest:
+        middle, last = at(R, 0.5 * u) + more, at(R, u) + more
+        if EVEN * min(first, middle, last) >= max(first, middle, last):
+            break
+        u *= 0.5
+    return u
+
+
+# --- a stretch of contact ---
+
+
+@_inline
+def start_of(e, i, top, R, h, G, T, arms):
+    """A spring in contact as a stretch of time begins, under the disc R, a cubic."""
+    g, a = end_force(e, i, top.p, T, arms), 0.0j
+    if arms is not None:
+        a = memory(e, i, arms)
+    v = G * top.p + 2.0 * T * top.q - a
+    rho, fast = size_of(g), size_of(v)
+    n = g * (1.0 / rho) if rho > TOUCHING * h * fast else v * (1.0 / max(fast, TINY))
+    ahead = along(v, n) - R.b
+    vel = max(rho - max(R.a, 0.0), 0.0) / T if T > 0.0 else max(ahead, 0.0) / G
+    return Start(g, a, v, n, vel, ahead)
+
+
+@_inline
+def rub_disc(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, look):
+    """Spring i in contact for a time t from `begun` in the step on, as rub_line of line.py."""
+    h, G, R = tools.times.h, glassy(arms), cubic(held_force(s, i, z[0], z[1], t, k, T, tools, arms), t)
+    if look is not None:
+        nodes = look.nodes if t == h else nodes_of(t, modes, arms)
+        of_pressing(look.sums, w, s, i, z[0], z[1], nodes, T, arms)
+    pressed, pressed_moment = hold(s, i, z[0], z[1], t, k, T, tools, arms)
+    gone, zeros, mode, n, vel, top = 0.0, 0, BEGINS, 0.0j, 0.0, Way(x[0], x[1])
+    area, moment, stuck, when = 0.0j, 0.0j, 0.0, 0.0
+    for _ in range(MOST_EVENTS):
+        left, now = t - gone, begun + gone
+        start = start_of(e, i, top, R, h, G, T, arms)
+        if mode == BEGINS:
+            out = size_of(start.g) - max(R.a, 0.0)
+            mode = SLIP if (out >= -tol and start.ahead > 0.0) or (T > 0.0 and out > tol) else STICK
+        u = left if mode == STICK else even_part(R, T * start.vel + tol, left, SHORTEST * h)
+        if u < t:
+            k = PART
+        if arms is not None and k == PART:
+            fill(u, None, arms, tools.times, PART)
+        if mode == STICK:
+            of = sticks(e, i, w, top, R, u, k, tol, T, modes, arms, tools, look)
+            stuck, when = stuck + of.t, when + of.t * (now + 0.5 * of.t)
+        else:  # after two stretches without length slip and stick hold alike
+            of = slips(e, i, w, top, start, R, u, k, zeros > 1, G, T, modes, arms, tools, look)
+        area, moment = area + of.area, moment + now * of.area + of.moment
+        if mode == STICK or of.t > 0.0:
+            n, vel = of.n, of.vel
+        if (of.lasts and u == left) or left - of.t <= ROUNDING * h:  # what is left is the rounding of the time
+            break
+        zeros = 0 if of.t > 0.0 else zeros + 1
+        gone += of.t
+        top, R = Way(top.p + 2.0 * of.t * top.q, top.q), since(R, of.t)
+        if not of.lasts:
+            mode = STICK if mode == SLIP else SLIP
+    return Friction(mode, n, vel, area, moment, stuck, when, pressed, begun * pressed + pressed_moment)

@@ -1,0 +1,126 @@
+"""Coulomb friction along a line: |L[e]| <= L[s], over a stretch of contact, exact from event to event.
+
+=========  ===========  =======================  =====================================
+mode       what moves   what is left alone       it ends where
+=========  ===========  =======================  =====================================
+stick      e with x     nothing                  |L[e]| comes to L[s]: slip
+slip       e with s     s - e (so L[e] = L[s])   the slip velocity ends, x' = e': stick
+slip back  e with -s    s + e (L[e] = -L[s])     likewise
+=========  ===========  =======================  =====================================
+"""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from mdr.spring.contact import MOST_EVENTS, Friction
+from mdr.spring.contact_modes import SLIP, SLIP_BACK, STICK
+from mdr.spring.energies import LEAST_SLIP, nodes_of, of_pressing, of_slipping, of_sticking
+from mdr.spring.motion import alone, held_force, hold, into_modes, of_modes, until_alone, until_held
+from mdr.spring.path import FAST, LENT, NEVER, below, on_parabola, plus, stays
+from mdr.spring.times import PART, fill
+from mdr.tools.jit import inner
+
+_inner = inner(error_model="numpy", fastmath=FAST, **LENT)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+
+BEGINS = -1  #: the mode is still to be found
+
+
+@_inner
+def slip_velocity(mode, s, e, i, share, z_1, x_1, off, modes):
+    """Velocity over the plane of a spring in contact, at a share of the step at which the parabolas have the rates z_1
+    and x_1: by rates of the cubic that has the true ones, which are off by `off`, at both ends of the step.
+    """
+    if mode == STICK:
+        return 0.0
+    sign, rate, bend = -1.0 if mode == SLIP_BACK else 1.0, 0.0, 1.0 - 6.0 * share * (1.0 - share)
+    if modes is not None:
+        for k in range(modes.mu.size):
+            m = 0.0
+            for j in range(s.shape[0]):
+                m += modes.into[k, j] * (s[j, i] - sign * e[j, i])
+            rate -= modes.mu[k] * modes.out[0, k] * m
+    return sign * (sign * (x_1 + bend * off[1]) - (z_1 + bend * off[0]) + rate)
+
+
+@_inline
+def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, look):
+    """Spring i in contact for a time t from `begun` in the step on; s and e are updated.
+
+    z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that t has. tol: rounding. off: as of
+    slip_velocity. look: None or Look.
+    """
+    h, n_x, gone, mode = tools.times.h, s.shape[0], 0.0, BEGINS
+    area = moment = stuck = when = pressed = pressed_moment = 0.0
+    for _ in range(MOST_EVENTS):
+        u, s_0, e_0 = t - gone, s[0, i], e[0, i]
+        (z_1, z_2), (x_1, x_2) = (z[0] + 2.0 * z[1] * gone, z[1]), (x[0] + 2.0 * x[1] * gone, x[1])
+        press, shear = (
+            held_force(s, i, z_1, z_2, u, k, T, tools, arms),
+            held_force(e, i, x_1, x_2, u, k, T, tools, arms),
+        )
+        ahead, behind = plus(press, -1.0, shear), plus(press, 1.0, shear)
+        if mode == BEGINS:
+            forward, backward = below(ahead, tol), below(behind, tol)
+            mode = SLIP_BACK if backward else STICK
+            if forward and (ahead.v_0 <= behind.v_0 or not backward):
+                mode = SLIP
+            if look is not None and begun > 0.0:
+                vel = slip_velocity(mode, s, e, i, begun / h, z_1, x_1, off, modes)
+                look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], vel)
+        # when the mode ends, and what follows
+        until, after, sign, lag, fallen = NEVER, STICK, -1.0 if mode == SLIP_BACK else 1.0, 0.0, 0.0
+        if mode == STICK:
+            if not stays(ahead, u, tol):
+                p, q, after = z_1 - x_1, z_2 - x_2, SLIP
+                until = until_held(ahead, s_0 - e_0, s, e, i, 1.0, -1.0, p, q, u, tol, T, modes, arms, tools)
+            if not stays(behind, u, tol):
+                p, q = z_1 + x_1, z_2 + x_2
+                back = until_held(behind, s_0 + e_0, s, e, i, 1.0, 1.0, p, q, u, tol, T, modes, arms, tools)
+                until, after = (back, SLIP_BACK) if back < until else (until, after)
+        else:
+            lag, rate = s_0 - sign * e_0, 0.0
+            if modes is not None:
+                rate, fallen = modes.mu[0], tools.times.decay[k, 0]
+            _, left_rate = alone(lag, rate, fallen)
+            if arms is not None:
+                _, left_rate = into_modes(s, e, i, sign, k, tools, modes)
+            p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
+            slips = plus(left_rate, 1.0, on_parabola(p, q, 0.0, 0.0, u))
+            if not stays(slips, u, tol):
+                until = until_alone(slips, p, q, 0.0, lag, True, u, tol, modes, arms, tools)
+        ends = until < u
+        if ends:
+            u, k = until, PART
+            fill(u, modes, arms, tools.times, PART)
+        if look is not None:
+            nodes = look.nodes if u == h else nodes_of(u, modes, arms)
+            impulse = of_pressing(look.sums, w, s, i, z_1, z_2, nodes, T, arms)
+            if mode == STICK:
+                of_sticking(look.sums, w, e, i, x_1, x_2, impulse, nodes, T, arms)
+            else:
+                ways = (z_1, z_2), (x_1, x_2)
+                of_slipping(look.sums, w, sign, s, e, i, *ways, nodes, T, modes, arms, tools.room.more)
+        # the state after that time
+        A, B = hold(s, i, z_1, z_2, u, k, T, tools, arms)
+        pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B
+        if mode == STICK:
+            A, B = hold(e, i, x_1, x_2, u, k, T, tools, arms)
+            stuck, when = stuck + u, when + u * (begun + gone + 0.5 * u)
+        else:
+            if modes is not None:
+                fallen = tools.times.decay[k, 0]
+            e[0, i] = sign * (s[0, i] - lag * fallen)
+            if arms is not None:
+                for j in range(n_x):
+                    e[j, i] = sign * (s[j, i] - of_modes(j, k, tools.room.modes, tools.times, modes))
+        area, moment = area + sign * A, moment + sign * ((begun + gone) * A + B)
+        if not ends:
+            break
+        gone, mode, k = gone + u, after, PART
+        fill(t - gone, modes, arms, tools.times, PART)
+    vel = 0.0
+    if look is not None:
+        vel = slip_velocity(mode, s, e, i, (begun + t) / h, z[0] + 2.0 * z[1] * t, x[0] + 2.0 * x[1] * t, off, modes)
+    n = -1.0 if mode == SLIP_BACK else 1.0
+    return Friction(mode, n, vel, area, moment, stuck, when, pressed, pressed_moment)
