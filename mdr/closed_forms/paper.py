@@ -21,21 +21,26 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.case.depth_cycle import peak, stick_limit
-from mdr.tools.checks import finite_array
+from mdr.tools.checks import finite_array, in_range, plain
+from mdr.tools.messages import short
 
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
 
 def _finite(formula: Callable[_P, _R]) -> Callable[_P, _R]:
-    """The formula, of finite numbers alone: ValueError by name for NaN and infinities, TypeError for no number."""
+    """The formula, of finite numbers alone: ValueError by name for NaN and infinities, TypeError for no number; and
+    ValueError where a term of it is beyond the range of floats.
+    """
     names = signature(formula)
 
     @wraps(formula)
     def checked(*args: _P.args, **kwargs: _P.kwargs) -> _R:
-        for name, value in names.bind(*args, **kwargs).arguments.items():
-            finite_array(name, value)
-        return formula(*args, **kwargs)
+        given: dict[str, Any] = names.bind(*args, **kwargs).arguments
+        numbers = {name: plain(finite_array(name, value)) for name, value in given.items()}  # whose overflow is told
+        told = ", ".join(f"{name} = {short(repr(value))}" for name, value in given.items())
+        with in_range(f"{formula.__name__} at {told}"):
+            return formula(**numbers)  # type: ignore[call-arg, arg-type]
 
     return checked
 
@@ -199,14 +204,15 @@ def eq_15(
     becomes k_x + i omega c_x. Holds while no spring leaves the plane, Eq. (5), for an oscillation so small that the
     contact stiffness is constant, and for k_x != m omega²: on that resonance the answer is infinite.
     """
-    inertia = complex(m * omega**2 - k_x, -omega * c_x)
+    inertia = m * omega**2 - k_x - omega * c_x * 1j
     if inertia == 0:
         return float("inf")
-    viscous = -1j * gamma_zc * omega
+    viscous = -gamma_zc * omega * 1j
     elastic = k_zc / k_xc * (inertia - k_xc)
     return float(mu_0 * du_z * omega * abs(viscous + elastic) / abs(inertia))
 
 
+@in_range("the critical velocity")
 def linear_critical_velocity(
     mu_0: float, omega: float, u_n: ArrayLike, mindlin_ratio: float, K_n: ArrayLike, H_n: ArrayLike, X_n: ArrayLike = 0
 ) -> float:

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape
+from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape, why_noisy
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, SAME, Array
@@ -290,7 +290,7 @@ class FromForce(Indenter):
 
     def _refuse_shrinking(self) -> None:
         """The contact must grow while it is pressed deeper."""
-        if why := self._why_no_shape():
-            d, F = np.array(self.d), np.array(self.F)
+        d, F = np.array(self.d), np.array(self.F)
+        if why := why_noisy(self.smoothing, d, F, "N") or self._why_no_shape():
             smoothing = told_smoothing(self._smoothed_enough, self.smoothing, d, F, "N")
             raise ValueError(f"F must rise more and more steeply, but {why}; {smoothing}")

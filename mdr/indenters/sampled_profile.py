@@ -14,10 +14,10 @@ import numpy as np
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
-from mdr.indenters.mapping.shape_check import FINE, told_smoothing, why_no_shape
+from mdr.indenters.mapping.shape_check import FINE, told_smoothing, why_no_shape, why_noisy
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, not_negative, positive
+from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, in_range, not_negative, positive
 from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
@@ -97,17 +97,20 @@ class SampledProfile(Indenter):
                 "r",
             )
         require_ascent("r", self.r)
-        if self.smoothing >= (range_of_f := max(self.f) - min(self.f)) > 0:
+        if (range_of_f := max(self.f) - min(self.f)) == 0:
+            raise FieldError(f"f is {self.f[0]:.6g} m at every r, a flat face: use FlatPunch(a={self.r[-1]!r})", "f")
+        if self.smoothing >= range_of_f:
             raise FieldError(
                 f"smoothing = {self.smoothing:.6g} m is the noise of the heights, which differ by {range_of_f:.6g} m "
                 "in all: give it in m",
                 "smoothing",
             )
         self._require_points(self.kinks)
-        if why := self._why_no_shape():
-            r, f = np.array(self.r), np.array(self.f)
-            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, r, f, "m")
-            raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {smoothing}")
+        r, f = np.array(self.r), np.array(self.f)
+        with in_range(f"a shape of the height {range_of_f:.6g} m and the radius {r[-1]:.6g} m"):
+            if why := why_noisy(self.smoothing, r, f, "m") or self._why_no_shape():
+                smoothing = told_smoothing(self._smoothed_enough, self.smoothing, r, f, "m")
+                raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {smoothing}")
 
     def _why_no_shape(self) -> str:
         """What is wrong with the contact at the ends of all pieces, in their middles and between; empty for a shape."""
@@ -272,7 +275,7 @@ def require_pairs(name: str, x: Sequence[float], other: str, y: Sequence[float],
 
 def require_ascent(name: str, x: Sequence[float]) -> None:
     """FieldError unless each number is above the one before."""
-    falls = np.flatnonzero(np.diff(x) <= 0)
+    falls = np.flatnonzero(np.less_equal(x[1:], x[:-1]))
     if falls.size:
         i = int(falls[0])
         raise FieldError(

@@ -25,7 +25,7 @@ from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials import Material
 from mdr.tools.arrays import Array
-from mdr.tools.checks import count, finite_array, instance, plain, positive
+from mdr.tools.checks import count, finite_array, in_range, instance, plain, positive
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
@@ -169,19 +169,22 @@ def tangential_loop(
     """
     mu_0, u_z0 = _checked(indenter, material, mu_0, u_z0)
     U, n = positive("u_x", u_x, "amplitude in m"), count("n", n, 2)
-    way = 2 * U * np.sin(np.linspace(0, np.pi / 2, n)) ** 2  # travelled since the turn, fine at both ends
-    F_way = 2 * _pulled(indenter, material, mu_0, u_z0, way / 2)[0]
-    back, F_back = U - way, F_way[-1] / 2 - F_way
+    with in_range(f"a loop of u_x = {U:.6g} m"):
+        way = 2 * U * np.sin(np.linspace(0, np.pi / 2, n)) ** 2  # travelled since the turn, fine at both ends
+    F_x, _ = _pulled(indenter, material, mu_0, u_z0, way / 2)
+    d_c = float(_stuck_depth(material, mu_0, u_z0, np.array(U)))
+    F_z, area = indenter.force(u_z0, material.E_star), _force_integral(indenter, material.E_star, d_c, u_z0)
+    with in_range(f"a loop of u_x = {U:.6g} m"):
+        F_way = 2 * F_x
+        back, F_back = U - way, F_x[-1] - F_way
+        loss = 8 * mu_0 * (F_z * U - mu_0 * material.mindlin_ratio * np.float64(area)) - 4 * U * F_x[-1]
     loop_u, loop_F = np.concatenate([back, -back[1:]]), np.concatenate([F_back, -F_back[1:]])
-    unit = mu_0 * material.mindlin_ratio
-    F_z = float(indenter.force(u_z0, material.E_star))
-    work = mu_0 * (F_z * U - unit * _force_integral(indenter, material.E_star, max(u_z0 - U / unit, 0.0), u_z0))
-    return TangentialLoop(loop_u, loop_F, F_z, float(8 * work - 2 * U * F_way[-1]))
+    return TangentialLoop(loop_u, loop_F, float(F_z), float(loss))
 
 
 def _pulled(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_x: Array) -> tuple[Array, Array]:
     """F_x [N] and stick radius [m]."""
-    d_c = np.maximum(u_z0 - u_x / (mu_0 * material.mindlin_ratio), 0)
+    d_c = _stuck_depth(material, mu_0, u_z0, u_x)
     if indenter.max_radius < np.inf and np.any(d_c == 0):
         rim = float(indenter.contact_radius(u_z0))
         if float(indenter.profile_1d(rim)) < 0:
@@ -190,8 +193,16 @@ def _pulled(indenter: Indenter, material: Material, mu_0: float, u_z0: float, u_
                 "sticks there, which the method leaves out; pull less"
             )
     E_star = material.E_star
-    F_x = mu_0 * (np.asarray(indenter.force(u_z0, E_star)) - np.asarray(indenter.force(d_c, E_star)))
+    F_z, F_c = indenter.force(u_z0, E_star), np.asarray(indenter.force(d_c, E_star))
+    with in_range("F_x"):
+        F_x = mu_0 * (F_z - F_c)
     return F_x, np.asarray(indenter.contact_radius(d_c))
+
+
+def _stuck_depth(material: Material, mu_0: float, u_z0: float, u_x: Array) -> Array:
+    """d_c [m], 0 in full slip, also where u_x/(mu_0 kappa) is beyond the range of floats."""
+    with np.errstate(over="ignore"):
+        return np.maximum(u_z0 - u_x / mu_0 / material.mindlin_ratio, 0)
 
 
 def _force_integral(indenter: Indenter, E_star: float, low: float, high: float) -> float:

@@ -7,6 +7,8 @@ int or a numpy scalar went in.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from numbers import Integral, Real
 from typing import Any
 
@@ -119,6 +121,16 @@ def positive_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     if not (array > 0).all():
         raise FieldError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}", name)
     return array
+
+
+@contextmanager
+def in_range(what: str) -> Iterator[None]:
+    """ValueError, and no warning of NumPy, where a term inside is beyond the range of floats, or divided by 0."""
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            yield
+    except ArithmeticError as fault:
+        raise ValueError(f"{what} is beyond the range of floats ({fault}): give numbers nearer to one") from None
 
 
 def instants(name: str, values: ArrayLike) -> Array:

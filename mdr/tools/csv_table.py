@@ -6,8 +6,8 @@
     1, 0.9,
 
 The first line that is no comment names the columns, each with its unit in brackets (`csv_header`). They may stand in
-any order, beside others; commas, semicolons or tabs separate them. What is wrong is told with its line, and with what
-to write instead.
+any order, beside others; commas, semicolons or tabs separate them, or what a first line such as `sep=;` says. What is
+wrong is told with its line, and with what to write instead.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ def table_of(
     _require_known("units", units, names)
     _require_known("columns", called, names)
     lines = _lines(text, source, columns)
-    separator = _separator(lines, source)
+    separator = _told_separator(text) or _separator(lines, source)
     rows = [cells_of(line, f"{source}: line {number}", separator) for number, line in lines]
     header = Header(rows[0], columns, units or {}, called or {})
     try:
@@ -146,7 +146,8 @@ def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
 
 def _lines(text: str, source: str, columns: Sequence[Column]) -> list[tuple[int, str]]:
     """The header and the rows, each with its number. A header may be the last comment before a row of numbers."""
-    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip(" \t,;")]
+    first = 1 + bool(_told_separator(text))
+    lines = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if n >= first and line.strip(" \t,;")]
     rows = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
     if rows and all(is_number(cell) for cell in re.split(r"[,;\s]+", rows[0][1].strip(" \t,;"))):
         comments = [(number, line) for number, line in lines if number < rows[0][0]]
@@ -161,6 +162,12 @@ def _lines(text: str, source: str, columns: Sequence[Column]) -> list[tuple[int,
 def _example(columns: Sequence[Column]) -> str:
     """A header as it is meant."""
     return ", ".join(one.example for one in columns if one.needed)
+
+
+def _told_separator(text: str) -> str:
+    """What a first line such as `sep=;` of Excel says; empty without one."""
+    told = re.match(r'"?sep=([^\w"\r\n])"?[,;\t]*\r?$', text, re.IGNORECASE | re.MULTILINE)
+    return told[1] if told else ""
 
 
 def _separator(lines: Sequence[tuple[int, str]], source: str) -> str:

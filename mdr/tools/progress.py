@@ -92,8 +92,8 @@ class Ticker:
     def __init__(self, what: str, total: int | None = None, parts: str = "", done: int = 0) -> None:
         self.what, self.total, self.parts = what, total, parts
         self.done, self.before, self.watch = done, done, _watch.get()
-        self.start = time.monotonic()
-        self.next = self.start + PATIENCE
+        now = time.monotonic()
+        self.start, self.next = now - TALLY.took, now + PATIENCE  # what is compiled once tells nothing of the rest
 
     def tick(self, parts: int = 1) -> None:
         """One more part is done, or several."""
@@ -110,7 +110,7 @@ class Ticker:
         parts = f" {self.parts}" if self.parts else ""
         if self.total is None:
             return f"{parts} so far"
-        left = (now - self.start) / (self.done - self.before) * (self.total - self.done)
+        left = (now - TALLY.took - self.start) / (self.done - self.before) * (self.total - self.done)
         return f" of {self.total}{parts}, about {in_words(left)} left"
 
 

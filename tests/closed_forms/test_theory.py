@@ -1,5 +1,6 @@
 """Every closed form against its neighbours: limits, derivatives, the equation of motion, the printed page."""
 
+import contextlib
 import dataclasses
 import inspect
 import math
@@ -283,6 +284,23 @@ def test_nothing_that_is_not_finite_gets_in(equation, bad):
         values = dict.fromkeys(inspect.signature(equation).parameters, 1.0) | {wrong: bad}
         with pytest.raises(ValueError, match=f"^{wrong} must be finite"):
             equation(**values)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("size", [1e-150, 1e150, 1e-308, 1e308])
+@pytest.mark.parametrize("equation", EQUATIONS.values(), ids=EQUATIONS)
+def test_numbers_far_from_one_are_answered_or_refused(equation, size):
+    names = inspect.signature(equation).parameters
+    for given in ([size] * len(names), *(np.where(np.arange(len(names)) == i, size, 2.0) for i in range(len(names)))):
+        with contextlib.suppress(ValueError):
+            assert np.isfinite(equation(*given))
+
+
+def test_a_division_by_nothing_is_refused_by_name():
+    with pytest.raises(ValueError, match=r"eq_11 at gamma_zc = 1.0, mindlin_ratio = 0.0 is .*divide by zero"):
+        paper.eq_11(1.0, 0.0)
+    with pytest.raises(ValueError, match="the critical velocity is beyond the range of floats"):
+        paper.linear_critical_velocity(0.4, 1e200, 1e200, 1.25, 1.0, 0.0)
 
 
 def test_help_on_the_critical_velocity_prints_what_it_computes():

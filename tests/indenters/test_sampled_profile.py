@@ -1,5 +1,6 @@
 """Shapes from measured points: as good as their splines say, or refused with the reason."""
 
+import contextlib
 from itertools import pairwise
 
 import numpy as np
@@ -94,6 +95,33 @@ def test_noise_is_smoothed_or_refused():
     assert worst(shape.force(np.array([1e-5, 1e-4]), 1), mdr.Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
 
 
+def test_no_spline_follows_the_noise_of_many_points(monkeypatch):
+    """FITPACK takes a minute to get as close to these as a tenth of their noise, to no avail."""
+    r, noise = np.linspace(0, 2e-3, 10_000), 1e-7
+    f = r**2 / R + np.random.default_rng(1).normal(0, noise, r.size)
+    tried = []
+    own = mdr.SampledProfile._why_no_shape
+    monkeypatch.setattr(mdr.SampledProfile, "_why_no_shape", lambda self: tried.append(self.smoothing) or own(self))
+    with pytest.raises(ValueError, match=r"smoothing = 1e-08 m is less than the noise.*: 1.1e-07 m is enough"):
+        mdr.SampledProfile(r, f, smoothing=0.1 * noise)
+    mdr.SampledProfile(r, f, smoothing=noise)
+    assert min(tried) == noise
+    d = r[1:]
+    F = d**1.5 * (1 + np.random.default_rng(1).normal(0, 1e-3, d.size))
+    with pytest.raises(ValueError, match=r"smoothing = 1e-12 N is less than the noise"):
+        mdr.FromForce(np.append(0, d), np.append(0, F), 1e6, smoothing=1e-12)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", [1e-300, 1e-200, 1e200, 1e300])
+@pytest.mark.parametrize("reach", [1e-300, 1e-200, 1e200, 1e300])
+def test_sizes_beyond_all_others_are_answered_or_refused(scale, reach):
+    r = np.linspace(0, 1, 20)
+    with contextlib.suppress(ValueError):
+        shape = mdr.SampledProfile(reach * r, scale * r**2)
+        assert shape.profile_3d(reach) == pytest.approx(scale)
+
+
 @pytest.mark.parametrize("shape", [mdr.TruncatedCone(B, THETA), mdr.TruncatedParaboloid(B, R)])
 def test_a_kink_that_makes_the_spline_fall_is_found(shape):
     f = shape.profile_3d(GRID)
@@ -110,6 +138,8 @@ def test_a_kink_that_makes_the_spline_fall_is_found(shape):
     (np.repeat(GRID, 2), np.repeat(GRID, 2), {}, ValueError, "r must ascend, got 0 and then 0 .*take the mean"),
     (GRID, GRID**2, {"kinks": [1.001e-3]}, ValueError, "among the r.*got 0.001001 m: the nearest is 0.001 m"),
     (GRID, -(GRID**2), {}, ValueError, "annular contact"),
+    (GRID, 0 * GRID, {"smoothing": 1e-7}, ValueError, r"f is 0 m at every r, a flat face: use FlatPunch\(a=0.002\)"),
+    (GRID, 0 * GRID + 1e-3, {}, ValueError, "f is 0.001 m at every r, a flat face"),
 ])  # fmt: skip
 def test_points_that_are_no_profile(r, f, how, error, words):
     with pytest.raises(error, match=words):

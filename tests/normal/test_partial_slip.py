@@ -89,3 +89,13 @@ def test_answers_come_in_the_shape_of_the_question():
     assert isinstance(pulled.F_z, float)
     assert isinstance(partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, 1e-6).F_x, float)
     assert pulled == partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, np.zeros((2, 3)))
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_way_beyond_all_others_is_full_slip_or_refused():
+    cone = mdr.Cone(theta=0.02)
+    far = partial_slip(cone, BODY, 1e-200, DEPTH, 1e200)  # u_x/mu_0 is beyond the range of floats
+    assert (far.stick_radius, far.F_x) == (0, 1e-200 * far.F_z)
+    for mu_0, U in ((1e300, 1e200), (MU_0, 1e308)):
+        with pytest.raises(ValueError, match=r"a loop of u_x = 1e\+\d+ m is beyond the range of floats"):
+            tangential_loop(cone, BODY, mu_0, DEPTH, U)

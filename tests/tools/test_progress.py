@@ -37,6 +37,18 @@ def test_what_was_there_before_is_counted_and_not_timed(capsys, clock):
     assert capsys.readouterr().err == "sweep: 120 of 2000 chunks, about 94 min left\n"  # 1880 chunks of 3 s
 
 
+def test_the_rest_takes_no_time_of_compiling(capsys, monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    for part in progress(range(12), "work"):
+        if part == 0:
+            TALLY.begin()
+            now[0] += 60.0
+            TALLY.end()
+        now[0] += 1.0
+    assert capsys.readouterr().err.splitlines()[0] == "work: 1 of 12, about 11 s left"
+
+
 def test_an_unknown_end(capsys, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", -1.0)
     Ticker("velocity", parts="runs").tick()

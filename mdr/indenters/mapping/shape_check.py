@@ -149,6 +149,15 @@ def noise_of(x: Array, y: Array) -> float:
 FEW = 300  #: points through which a spline that follows the noise is found at once; its time goes as their square
 
 
+def why_noisy(smoothing: float, x: Array, y: Array, unit: str) -> str:
+    """What is wrong with a smoothing above 0 of many points (x, y) by which a spline follows their noise, before it
+    does; empty where nothing is. The noise is known to 1.7/√n of it, of which four times are left out.
+    """
+    if x.size < FEW or not 0 < smoothing < (1 - 7 / np.sqrt(x.size)) * noise_of(x, y):
+        return ""
+    return f"smoothing = {smoothing:.6g} {unit} is less than the noise of the points; without it the spline meets each"
+
+
 def told_smoothing(passes: Callable[[float], bool], least: float, x: Array, y: Array, unit: str) -> str:
     """What to say of a smoothing above ``least`` of points (x, y): the first of some that passes, or that none does."""
     noise, last = noise_of(x, y), least
