@@ -184,20 +184,11 @@ def test_closed_forms_and_the_march_know_nothing_of_each_other(house):
 
 
 def test_the_normal_motion_of_a_spring_has_no_friction_in_it(house):
-    """What closed forms use of a spring is `settle`, and this takes of a step the normal part alone."""
-    known, _ = house
-    tree = ast.parse(known["mdr.spring.settle"].read_text(encoding="utf-8"))
-    used = {
-        name.name
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and node.module == "mdr.spring.step"
-        for name in node.names
-    }
-    assert used == {"Path", "Tools", "new_tools", "press"}
-    below = ast.parse(known["mdr.spring.step"].read_text(encoding="utf-8"))
-    press = next(node for node in below.body if isinstance(node, ast.FunctionDef) and node.name == "press")
-    words = {node.id for node in ast.walk(press) if isinstance(node, ast.Name)}
-    assert not words & {"STICK", "SLIP", "SLIP_BACK", "row", "look"}
+    """What closed forms use of a spring is `settle`; nothing that it reaches, by any import, knows friction."""
+    _, imports = house
+    reached = set(reach(imports, ["mdr.spring.settle"]))
+    assert "mdr.spring.contact" in reached
+    assert not reached & {f"mdr.spring.{name}" for name in ("line", "disc", "dragged", "whole", "row")}
 
 
 def test_the_compiled_march_knows_numbers_alone(house):

@@ -153,31 +153,29 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                 fill(t, modes, arms, tools.times, PART)
             if not presses:
                 mode, since, before = FREE, 0.0, (0.0, 0.0)
-                if look is not None:
+                if look is not None and modes is not None:  # without, the rounding of an end of contact is left
                     before = stored(s, i, arms), stored(e, i, arms)
                 relax(s, i, k, modes, arms, tools.room.modes, tools.times)
                 if e is not None:
                     relax(e, i, k, modes, arms, tools.room.vectors, tools.times)
-                if look is not None:
+                if look is not None and modes is not None:
                     look.sums[NORMAL_VISCOUS] += w[i] * (before[0] - stored(s, i, arms))
                     look.sums[SHEAR_VISCOUS] += w[i] * (before[1] - stored(e, i, arms))
             elif t > ROUNDING * h:
                 since += t
                 if rub is None:
                     A, B = hold(s, i, z_1, path.z_2, t, k, T, tools, arms)
-                    mode, normal_area, normal_moment = (
-                        STICK,
-                        normal_area + w[i] * A,
-                        normal_moment + w[i] * (done * A + B),
-                    )
+                    mode = STICK
+                    normal_area += w[i] * A
+                    normal_moment += w[i] * (done * A + B)
                 else:
                     z, x = (z_1, path.z_2), (path.x_1 + 2.0 * path.x_2 * done, path.x_2)
                     of = rub(s, e, i, w[i], z, x, t, k, done, tol, off, T, modes, arms, tools, look)
                     mode, n, vel = of.mode, of.n, of.vel
                     area, moment = area + w[i] * of.area, moment + w[i] * of.moment
                     stuck, when = stuck + w[i] * of.stuck, when + w[i] * of.when
-                    normal_area = normal_area + w[i] * of.normal_area
-                    normal_moment = normal_moment + w[i] * of.normal_moment
+                    normal_area += w[i] * of.normal_area
+                    normal_moment += w[i] * of.normal_moment
             if not ends:
                 break
             if look is not None and presses:

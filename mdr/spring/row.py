@@ -53,8 +53,10 @@ def row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look):
 
 
 def any_row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    """The step along a line, or in the plane, as the type of e says; for compiled callers alone."""
-    raise NotImplementedError
+    """The step along a line, or in the plane, as the type of e says."""
+    if np.iscomplexobj(e):
+        return row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look)
+    return row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
 @overload(any_row, inline="never")

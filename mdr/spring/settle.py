@@ -113,7 +113,9 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # t
         of = press(s, gap, w, path, z_dot[k + 1], T, modes, arms, tools, each)
         if force.shape[0] > 0:
             force[k], since[k] = each.force, each.since
-        pressed, flight = each.since.max(), 0.0
+        pressed, flight = 0.0, 0.0
+        for i in range(n):
+            pressed = max(pressed, each.since[i])
         if flies and pressed > 0.0:
             flight = h * max(1.0 - pressed - EARLY, 0.0)
         sums[0, k], sums[1, k], sums[2, k] = of.normal_area, of.normal_moment, of.normal_end

@@ -9,10 +9,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr.element.kernels import N_HEAD
-from mdr.spring.energies import FRICTION_LOSS, N_SUMS, NORMAL_VISCOUS, SHEAR_VISCOUS
-from mdr.spring.settle import tools_for
-from mdr.spring.step import Path
-from mdr.spring.turning import LookAcross, row_turning
+from mdr.spring.contact import Look
+from mdr.spring.energies import FRICTION_LOSS, N_SUMS, NORMAL_VISCOUS, SHEAR_VISCOUS, nodes_of
+from mdr.spring.path import Path
+from mdr.spring.row import row_in_plane
+from mdr.spring.times import tools_for
 
 BALL, DEPTH, MU_0, DT = mdr.Paraboloid(R=5e-3), 40e-6, 0.5, 1e-3
 ELASTIC = mdr.Elastic(E=3e6, nu=0.5)
@@ -234,10 +235,12 @@ def test_what_is_lost_is_what_friction_and_material_take(material):
     state = contact.at_rest((0, 0, DEPTH / 2))
     for u in us:
         springs, h = state[N_HEAD:-1].copy(), DT
-        s, e = springs[: rows * n].reshape(rows, n), springs[rows * n :].reshape(2 * rows, n)
+        s, e_x, e_y = springs.reshape(3, rows, n)
         (x, y, z), start = (u - state[:3]) / units / h, state[:3] / units
-        look = LookAcross(sums, np.zeros(4), *np.zeros((4, n)))
-        row_turning(s, e, row.gap, row.w, Path(start[2], z, 0.0, x, 0.0), y, 0.0, *law, tools_for(law, h), look)
+        nodes, way = nodes_of(h, law.modes, law.arms), complex(x, y)
+        look = Look(nodes, sums, np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
+        path, tools = Path(start[2], z, 0.0, way, 0j), tools_for(law, h, in_plane=True)
+        row_in_plane(s, e_x + 1j * e_y, row.gap, row.w, path, z, way, *law, tools, None, look)
         before, (_, state) = contact.dissipated(state), contact.step(state, h, u)
         assert contact.dissipated(state) >= before - 1e-12 * contact.stored(state)
     unit_x, unit_z = row.force_x * row.length_x, row.force_z * row.length_z

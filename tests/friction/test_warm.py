@@ -9,14 +9,12 @@ import mdr
 from mdr.__main__ import main
 from mdr.closed_forms import shaken_spring
 from mdr.friction import warm
-from mdr.march import loop, orbit_loop, turning
+from mdr.march import loop, orbit_loop
 
 
 def all_compiled():
     """Compiled variants of the functions that runs enter by."""
-    entries = (
-        loop.march, loop.look, orbit_loop.search, turning.march_turning, turning.look_turning, shaken_spring.all_springs
-    )  # fmt: skip
+    entries = loop.march, loop.look, orbit_loop.search, shaken_spring.all_springs
     return {one.__name__: len(one.signatures) for one in entries}
 
 

@@ -14,7 +14,7 @@ from mdr.march.body import body_of, harmonics_of, light_harmonics_of, pushed
 from mdr.march.loop import march, next_place
 from mdr.march.march import Resolution, at_hand
 from mdr.spring.law import law_of
-from mdr.spring.settle import tools_for
+from mdr.spring.times import tools_for
 
 N = 64
 H = 2 * np.pi / N
@@ -148,7 +148,7 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(64, steps, "full_slip", True))
     for v in (0.05, 0.3, 0.8):
-        of_body = scaled.body, scaled.springs, *scaled.full_slip_force, scaled.drive.with_pull(v)
+        of_body = scaled.body, None, scaled.springs, *scaled.full_slip_force, scaled.drive.with_pull(v)
         of_springs = scaled.law, tools_for(scaled.law, scaled.drive.h)
         s, state = scaled.normal.s.copy(), scaled.full_slip.state(v).copy()  # contiguous, as march() is compiled for
         assert scaled.body.light
@@ -183,7 +183,7 @@ def test_a_step_is_cut_at_a_touch_and_no_rounding_of_that_time_matters(start):
     for change in (1 - 1e-12, 1.0, 1 + 1e-12):
         s, state, trace = scaled.normal.s.copy(), scaled.full_slip.state(0.3).copy(), scaled.trace(2)
         parts = slip, change * flight, drive, scaled.law, tools_for(scaled.law, scaled.drive.h)
-        assert march(s.copy(), s, state, scaled.body, scaled.springs, *parts, 48, trace)
+        assert march(s.copy(), s, state, scaled.body, None, scaled.springs, *parts, 48, trace)
         ways.append(trace.y)
     assert flight.any()
     assert_allclose(ways[::2], [ways[1]] * 2, rtol=0, atol=1e-10)

@@ -14,7 +14,7 @@ from mdr.march import loop
 from mdr.march.body import RATE, Y
 from mdr.march.dimensionless import ScaledContact, fast_ratio
 from mdr.march.stepper import Stepper
-from mdr.spring.settle import tools_for
+from mdr.spring.times import tools_for
 
 STEPS = 256
 BODIES = {
@@ -137,7 +137,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
         scaled.law,
         tools_for(scaled.law, scaled.drive.h),
     )
-    assert loop.march(e, s.copy(), held, scaled.body, *parts, 3 * STEPS, trace)
+    assert loop.march(e, s.copy(), held, scaled.body, None, *parts, 3 * STEPS, trace)
     area, y = trace.area, trace.y
     # the rate of a light body takes a rounding of the force 1/h times
     size = np.abs(y).max() + np.abs(start).max()

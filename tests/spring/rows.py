@@ -4,10 +4,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mdr.spring.contact import Each, Look, press
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, nodes_of
 from mdr.spring.law import law_of
-from mdr.spring.settle import tools_for
-from mdr.spring.step import Look, Path, press, row
+from mdr.spring.path import Path
+from mdr.spring.row import row
+from mdr.spring.times import tools_for
 
 MATERIALS = {
     "elastic": (0.0, (), ()),
@@ -100,8 +102,8 @@ class Row:
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
                 spring, rates = (self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
-                area, moment, stuck, *_ = row(two, one, *spring, path, *self.law, tools, *rates, look and look[i])
-                sums[:, i] += area, moment + part * h * area, stuck
+                of = row(two, one, *spring, path, *rates, *self.law, tools, None, None, look and look[i])
+                sums[:, i] += of.area, of.moment + part * h * of.area, of.stuck
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
 
@@ -109,7 +111,7 @@ class Row:
         """The same with a close look at each spring."""
         n = self.gap.size
         nodes = nodes_of(self.h, *self.law[1:])
-        looks = [Look(nodes, np.zeros(N_SUMS), np.zeros(3), *np.zeros((3, 1))) for _ in range(n)]
+        looks = [Look(nodes, np.zeros(N_SUMS), np.zeros(4), *np.zeros((3, 1))) for _ in range(n)]
         for look in looks:
             look.sums[LEAST_SLIP] = np.inf
         return self.stepped(look=looks), looks
@@ -117,14 +119,16 @@ class Row:
     def at_once(self):
         """Sums over all springs in one call."""
         e, s, end = self.e.copy(), self.s.copy(), self.from_then(self.h)
-        sums = row(s, e, self.gap, self.w, self.path, *self.law, tools_for(self.law, self.h), end.z_1, end.x_1, None)
-        return e, s, sums[:3]
+        tools = tools_for(self.law, self.h)
+        of = row(s, e, self.gap, self.w, self.path, end.z_1, end.x_1, *self.law, tools, None, None, None)
+        return e, s, (of.area, of.moment, of.stuck)
 
     def pressed(self):
         """Compressions, sums of area and moment, and for how long each has pressed, without friction."""
-        s, since = self.s.copy(), np.empty(self.gap.size)
-        area, moment = press(s, self.gap, self.w, self.path, *self.law, tools_for(self.law, self.h), since)
-        return s, area, moment, since
+        s, each = self.s.copy(), Each(*np.empty((2, self.gap.size)))
+        rate, tools = self.from_then(self.h).z_1, tools_for(self.law, self.h)
+        of = press(s, self.gap, self.w, self.path, rate, *self.law, tools, each)
+        return s, of.normal_area, of.normal_moment, each.since
 
     def by_tiny_steps(self, n, limit=1.0, turned=1.0, touch=0.0, dashpot=1.0):
         """e, s, area and moment of the force of each spring, and area of the normal force.

@@ -7,7 +7,8 @@ from rows import MATERIALS
 
 from mdr.materials.operator import Rheology
 from mdr.spring.law import law_of
-from mdr.spring.settle import period, settled, tools_for
+from mdr.spring.settle import period, settled
+from mdr.spring.times import tools_for
 
 every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
 SLOW = {"slow": (0.0, (1.5,), (1e5,)), "stiff and slow": (0.13, (1300.0, 480.0), (54.0, 0.038))}

@@ -8,9 +8,11 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from rows import MATERIALS, Row
 
+from mdr.spring import contact_modes as of
 from mdr.spring import energies
-from mdr.spring import step as of
-from mdr.spring.settle import tools_for
+from mdr.spring.path import Ends, zero_of_parabola
+from mdr.spring.row import as_they_are, row
+from mdr.spring.times import tools_for
 
 TINY = 4000
 every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
@@ -96,7 +98,7 @@ def test_every_energy_goes_somewhere(material):
         for loss in (energies.FRICTION_LOSS, energies.SHEAR_VISCOUS, energies.NORMAL_VISCOUS, energies.STICK_IMPULSE):
             assert sums[loss].min() >= 0
         # the law of friction holds at the end, where no spring in contact goes deeper than the indenter
-        f_x, f_z, mode = (np.array([getattr(look, name)[0] for look in looks]) for name in ("f_x", "f_z", "mode"))
+        f_x, f_z, mode = (np.array([getattr(look, name)[0] for look in looks]) for name in ("f", "f_z", "mode"))
         assert np.all(np.abs(f_x) <= f_z * (1 + 1e-12))
         assert np.all(f_z[mode == of.FREE] == 0)
         assert np.all(s[0] >= one.at(one.h)[0] - one.gap - 1e-14)
@@ -144,16 +146,21 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
             for which in (replace(one, h=half), then)
         )
         tools, end = tools_for(one.law, half), then.from_then(half)
-        shares = of.row(first.s.copy(), first.e.copy(), first.gap, first.w, first.path, *one.law, tools, 0, 0, None)[5:]
-        T, modes, arms = one.law
-        area, moment, force = of.as_they_are(then.path, *shares, T, arms, tools, end.z_1, end.x_1)
+        T, _, arms = one.law
+        excess = np.zeros((one.s.shape[0], 1))
+        last = row(
+            first.s.copy(), first.e.copy(), first.gap, first.w, first.path, 0, 0, *one.law, tools, excess, None, None
+        )
+        ends = end.z_1, end.x_1
+        area, moment, force = as_they_are(then.path, last.sticking, last.back, T, arms, tools, excess, *ends)
         s_end, of_slip, moment_of_slip, _ = then.pressed()
         normal = one.roots @ (s_end @ then.w) + T * end.z_1 * then.w.sum()
-        known = of.row(
-            then.s.copy(), then.e.copy(), then.gap, then.w, then.path, T, modes, arms, tools, end.z_1, end.x_1, None
+        of_row = row(
+            then.s.copy(), then.e.copy(), then.gap, then.w, then.path, *ends, *one.law, tools, None, None, None
         )
+        known = of_row.area, of_row.moment, of_row.end
         assert keeps.any()
-        assert_allclose((of_slip + area, moment_of_slip + moment, normal + force), (*known[:2], known[4]), atol=1e-12)
+        assert_allclose((of_slip + area, moment_of_slip + moment, normal + force), known, atol=1e-12)
 
 
 @every_material
@@ -171,5 +178,5 @@ def test_the_normal_part_may_be_cut_into_two(material):
 
 def test_a_parabola_that_begins_below_zero_by_a_rounding_and_falls_has_its_zero_at_once():
     t, a, b, c, tol = 0.1, -2e-15, 1e-9, -1e-2, 4e-15
-    ends = of.Ends(a, b, a + t * (b + c * t), b + 2 * c * t, 2 * c, 2 * c)
-    assert of.zero_of_parabola.py_func(ends, t, tol, a, b, c) == 0.0
+    ends = Ends(a, b, a + t * (b + c * t), b + 2 * c * t, 2 * c, 2 * c)
+    assert zero_of_parabola.py_func(ends, t, tol, a, b, c) == 0.0

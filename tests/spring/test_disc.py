@@ -1,0 +1,192 @@
+"""A step of springs whose friction is a vector: a straight way, turned axes, the interval as the limit of the disc."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from mdr.spring.contact import Each, Look
+from mdr.spring.energies import N_SUMS, nodes_of
+from mdr.spring.law import law_of
+from mdr.spring.path import Path
+from mdr.spring.row import row, row_in_plane
+from mdr.spring.times import tools_for
+
+LAWS = {"elastic": law_of(0.0), "kelvin": law_of(0.4), "two arms": law_of(0.0, (1.0, 0.5), (1.0, 5.0))}
+H = 0.05
+
+
+def some_springs(law, rng, n=40):
+    """Springs at their depth, stretched within friction; the top is at z = 0 and sinks slowly."""
+    J = 1 if law.arms is None else 1 + law.arms.rho.size
+    gap = -rng.uniform(0.5, 2.0, n)
+    s = np.zeros((J, n))
+    s[0] = -gap
+    e, angle = np.zeros((J, n), complex), rng.uniform(0, 2 * np.pi, n)
+    e[0] = rng.uniform(0.0, 0.9, n) * s[0] * np.exp(1j * angle)
+    return gap, np.full(n, 1 / n), s, e
+
+
+def answer(law, s, e, gap, w, path, h):
+    """That of the row in the plane; s and e are updated."""
+    rates = path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2
+    return row_in_plane(s, e, gap, w, path, *rates, *law, tools_for(law, h, in_plane=True), None, None)
+
+
+def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
+    """The answer, compressions and extensions after a step on x_1 t + x_2 t²."""
+    gap, w, s, e = springs
+    s, e = s.copy(), e.copy()
+    return answer(law, s, e, gap, w, Path(0.0, z_1, 0.0, complex(x_1), complex(x_2)), h), s, e
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_turned_axes_turn_the_answer(law):
+    springs = some_springs(law, np.random.default_rng(1))
+    turn, speed = np.exp(0.7j), 10.0 if law.T == 0 else 1.0  # so that some stick and some slip
+    x_1, x_2 = speed * (0.9 - 1.2j), speed * (-3.0 + 5.0j)
+    of, _, e = stepped(law, springs, x_1, x_2)
+    gap, w, s, start = springs
+    there, _, e_there = stepped(law, (gap, w, s, turn * start), turn * x_1, turn * x_2)
+    assert_allclose(e_there, turn * e, atol=1e-13)
+    assert_allclose(there[:3], turn * np.array(of[:3]), atol=1e-13)
+
+
+def a_period(law, springs, angle, n_steps=24):
+    """A period that is turned by an angle: areas of the force and extensions at its end, both turned back; and after
+    each step the shares of springs that stick and that do not touch.
+    """
+    gap, w, s, e = springs
+    h, turn, areas, shares = 2 * np.pi / n_steps, np.exp(1j * angle), [], []
+    s, e = s.copy(), e * turn
+    way = [0.4, 0.8j, 0.3 + 0.2j]  # pull, shake, and its second harmonic
+
+    def rate(t):
+        return turn * (way[0] + way[1] * np.cos(t) + 2 * way[2] * np.cos(2 * t + 1))
+
+    for k in range(n_steps):
+        t = k * h
+        x, z = [rate(u) for u in (t, t + h)], [np.cos(u) for u in (t, t + h)]
+        q, z_2 = (x[1] - x[0]) / (2 * h), (z[1] - z[0]) / (2 * h)
+        path = Path(np.sin(t), (np.sin(t + h) - np.sin(t)) / h - z_2 * h, z_2, x[0], q)
+        of = answer(law, s, e, gap, w, path, h)
+        areas.append(of.area)
+        shares.append((of.sticking, np.mean(s[0] > np.sin(t + h) - gap + 1e-9)))
+    return np.array(areas) / turn, e / turn, np.array(shares)
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_turned_axes_turn_a_period_with_all_events(law):
+    springs = some_springs(law, np.random.default_rng(4))
+    areas, e, shares = a_period(law, springs, 0.0)
+    assert (np.ptp(shares, axis=0) > 0.05).all()  # some stick and slip, some leave and touch
+    for angle in (0.5, np.pi / 2, 4.0):
+        turned, e_turned, _ = a_period(law, springs, angle)
+        assert_allclose(turned, areas, atol=1e-12)
+        assert_allclose(e_turned, e, atol=1e-12)
+
+
+def test_a_straight_way_may_be_split():
+    law = LAWS["elastic"]
+    gap, w, s, e = some_springs(law, np.random.default_rng(2))
+    whole = stepped(law, (gap, w, s, e), 30.0 + 40.0j, 0.0, z_1=0.0)[2]
+    for _ in range(7):
+        e = stepped(law, (gap, w, s, e), 30.0 + 40.0j, 0.0, h=H / 7, z_1=0.0)[2]
+    assert_allclose(e, whole, atol=1e-11)
+
+
+def test_the_end_of_a_leash_is_a_tractrix():
+    law = LAWS["elastic"]
+    springs = np.array([-1.0]), np.ones(1), np.array([[1.0]]), np.array([[np.exp(2.0j)]])
+    way = 3.0
+    e = stepped(law, springs, way / H, 0.0, z_1=0.0)[2][0, 0]
+    # it is pulled back into the disc first, until the chord along the way has been gone through
+    left = way - (-2 * np.cos(2.0))
+    assert np.tan(np.angle(e) / 2) == pytest.approx(np.tan((np.pi - 2.0) / 2) * np.exp(-left), rel=1e-9)
+
+
+@pytest.mark.parametrize(("law", "tolerance"), list(zip(LAWS.values(), (1e-14, 1e-14, 1e-5), strict=True)), ids=LAWS)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_along_one_line_it_is_the_row_along_a_line(law, tolerance, sign):
+    """But for the memory of arms in slip, which is exact along a line alone; and in the plane none slips back."""
+    gap, w, s, e = some_springs(law, np.random.default_rng(3))
+    e.imag = 0.0
+    of, _, after = stepped(law, (gap, w, s, e), sign * 20.0, 10.0)
+    s_1, e_1, path = s.copy(), e.real.copy(), Path(0.0, 0.05, 0.0, sign * 20.0, 10.0)
+    rates = 0.05, sign * 20.0 + 20.0 * H
+    known = row(s_1, e_1, gap, w, path, *rates, *law, tools_for(law, H), None, None, None)
+    assert_allclose(after.imag, 0.0, atol=1e-15)
+    assert_allclose(after.real, e_1, atol=tolerance)
+    assert_allclose(np.real(of._replace(back=0.0)), known._replace(back=0.0), atol=tolerance)
+
+
+def test_slip_ends_where_the_top_turns_back_whatever_is_across():
+    """A spring that slips back is stuck from the turn on, also where next to nothing moves across."""
+    rng, law = np.random.default_rng(4), LAWS["elastic"]
+    for _ in range(300):
+        across, turn, bend = 10 ** rng.uniform(-12, -4), rng.uniform(0.1, 0.9) * H, rng.uniform(0.1, 3.0)
+        e = np.array([[complex(-1.0, across * rng.uniform(-1, 1))]])
+        springs = np.array([-1.0]), np.array([1.0]), np.ones((1, 1)), e / np.abs(e)
+        end = stepped(law, springs, complex(-2 * bend * turn, across * rng.uniform(-1, 1)), bend, z_1=0.0)[2]
+        assert end[0, 0].real == pytest.approx(-1 + bend * (H - turn) ** 2, abs=1e-8)  # of the square of the way across
+
+
+FALLING = {
+    "elastic": LAWS["elastic"],
+    "two arms": LAWS["two arms"],
+    "quick dashpot": law_of(H / 5),
+    "both": law_of(H / 5, (1.0, 0.5), (1.0, 5.0)),
+}
+
+
+@pytest.mark.parametrize("law", FALLING.values(), ids=FALLING)
+def test_a_step_in_which_a_spring_is_let_go_is_the_sum_of_its_parts(law):
+    """The leash falls to a share of itself, or to nothing before the end; slip begins within the step."""
+    rng, parts = np.random.default_rng(6), 512
+    for share in (0.3, 0.05, 0.0, -0.5):
+        _, w, s, e = some_springs(law, rng)
+        gap, e, s = -np.ones(w.size), e / s[0], s / s[0]
+        fall = (1 - share) / H
+        x_1, x_2 = (0.3 - 0.21j) * fall, 0.06 / H * fall + 0j
+        of, _, end = stepped(law, (gap, w, s, e), x_1, x_2, z_1=-fall)
+        area, h = 0.0j, H / parts
+        for t in h * np.arange(parts):
+            area += answer(law, s, e, gap, w, Path(-fall * t, -fall, 0.0, x_1 + 2 * t * x_2, x_2), h).area
+        assert_allclose(of.area, area, atol=3e-5 * H)
+        assert_allclose(end, e, atol=4e-4)
+
+
+def test_what_relaxes_with_its_limit_does_not_slip():
+    """At the rim, with arms stretched like the spring, under a top that rests: force and limit fall alike."""
+    law, excess, rng = law_of(0.25, (0.5,), (1.0,)), 1e-9, np.random.default_rng(2)
+    gap, _, s, _ = some_springs(law, rng)
+    s[1] = 0.99 * s[0]
+    angle = rng.uniform(0, 2 * np.pi, gap.size)
+    e = (1 + excess) * s * np.exp(1j * angle)
+    _, _, after = stepped(law, (gap, np.full(gap.size, 1 / gap.size), s, e), 0.0, 0.0, h=0.5, z_1=0.0)
+    assert_allclose(after[0], e[0], rtol=0, atol=2 * excess * s.max())  # the excess alone is shed
+
+
+@pytest.mark.parametrize(
+    "law", [LAWS["elastic"], LAWS["kelvin"], law_of(H / 5)], ids=["elastic", "kelvin", "quick kelvin"]
+)
+def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(law):
+    """The loop over those beside the row that a look takes, which follows every spring."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        gap, w, s, e = some_springs(law, rng)
+        gap = np.where(rng.random(gap.size) < 0.2, gap + rng.uniform(0, 3, gap.size), gap)  # some fly
+        x_1, x_2 = (complex(*rng.normal(0, size, 2)) for size in (3, 20))
+        path, n = Path(0.0, rng.uniform(-2, 1), rng.uniform(-5, 5), x_1, x_2), gap.size
+        s_1, e_1, s_2, e_2 = s.copy(), e.copy(), s.copy(), e.copy()
+        rates = path.z_1 + 2 * H * path.z_2, x_1 + 2 * H * x_2
+        nodes, tools = nodes_of(H, law.modes, law.arms), tools_for(law, H, in_plane=True)
+        look = Look(nodes, np.zeros(N_SUMS), np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
+        of, each = answer(law, s_1, e_1, gap, w, path, H), Each(*np.empty((2, n)))
+        known = row_in_plane(s_2, e_2, gap, w, path, *rates, *law, tools, each, look)
+        assert len(set(look.mode)) > 1
+        assert_allclose(s_1, s_2, rtol=0, atol=1e-14)
+        assert_allclose(e_1, e_2, rtol=0, atol=3e-14)
+        assert_allclose(of, known, rtol=0, atol=3e-14)
+        each_1 = Each(*np.empty((2, n)))
+        row_in_plane(s.copy(), e.copy(), gap, w, path, *rates, *law, tools, each_1, None)
+        assert_allclose(each_1, each, rtol=0, atol=1e-13)
