@@ -21,8 +21,8 @@ ORDER = (
     ("indenters",),
     ("materials",),
     ("case", "spring"),
-    ("normal",),
-    ("files",),
+    ("files", "normal"),
+    ("given",),
     ("closed_forms", "element", "half_space", "march"),
     ("friction",),
     ("studies",),
@@ -234,6 +234,28 @@ def test_a_record_never_solves(house):
     known, imports = house
     solvers = inside({"normal", "closed_forms", "march", "friction", "studies"}, known)
     assert ways_between(imports, known, inside({"case"}, known), solvers) == []
+
+
+def test_a_reader_does_not_solve(house):
+    """What stands in a file is read before anything is solved for: `files` knows of no solver."""
+    known, imports = house
+    solvers = inside({"given", "normal", "closed_forms", "march", "friction", "studies"}, known)
+    assert ways_between(imports, known, inside({"files"}, known), solvers) == []
+
+
+def test_what_users_say_is_not_the_normal_problem(house):
+    """The paths, settings and words of users are translated above the normal problem, which knows none of them."""
+    known, imports = house
+    users = {"mdr.case.paths"} | inside({"given"}, known)
+    no_doors = {one for one in imports if not one.door}
+    assert ways_between(no_doors, known, inside({"normal"}, known), users) == []
+
+
+def test_commands_do_not_need_the_page(house):
+    """Of the explorer, commands know what serves it."""
+    _, imports = house
+    asked = {imported for module, imported, _ in imports if room_of(module) == "commands"}
+    assert {module for module in asked if room_of(module) == "explorer"} == {"mdr.explorer.server"}
 
 
 def test_pictures_compute_nothing(house):

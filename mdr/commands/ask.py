@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 
 import mdr
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.commands.arguments import OF_MU_0, plain_number, quantity, velocity
 from mdr.commands.output import Exit, WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import Said
 from mdr.friction.free_parameters import path_of
+from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
 

@@ -6,13 +6,13 @@ import argparse
 from typing import Any
 
 import mdr
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, reading
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import Said
 from mdr.files.toml_text import StandardInput
 from mdr.friction.fit import Fit
+from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
 

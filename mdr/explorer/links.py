@@ -11,7 +11,8 @@ import numpy as np
 
 from mdr.case.contact import as_given
 from mdr.explorer.state import State
-from mdr.files.case_files import parse_case, write_case
+from mdr.files.case_files import write_case
+from mdr.given.case_file import parse_case
 from mdr.tools.notation import UNITS, numbers_in, shown
 
 LONGEST = 8000  #: characters of a link; a longer one is cut by some programs

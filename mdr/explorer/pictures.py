@@ -13,9 +13,9 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
+from mdr.closed_forms.critical_velocity import POINTS, UP_TO, critical_velocity, velocity_scale
 from mdr.closed_forms.full_slip import static_cof
-from mdr.explorer.state import DECADE, POINTS, UP_TO, State
+from mdr.explorer.state import DECADE, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
 from mdr.friction.verdict import verdict

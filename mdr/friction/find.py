@@ -18,15 +18,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.given.mean_load import warn_of_mean_loads
+from mdr.given.vary import load_asked, still_held
 from mdr.march.march import BUDGET, LEAST_ACCURATE
-from mdr.normal.mean_load import warn_of_mean_loads
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import load_asked, still_held
 from mdr.tools.arrays import EXACT
 from mdr.tools.checks import finite, positive
 from mdr.tools.keywords import offering

@@ -20,11 +20,9 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
+from mdr.given.vary import still_held, warn_of_load
 from mdr.march.refinement import default_springs, default_steps
-from mdr.normal.mean_load import warn_of_mean_loads
-from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import load_asked, still_held
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.keywords import offering
 from mdr.tools.messages import short
@@ -176,8 +174,7 @@ def fit(
     idle = np.linalg.norm(found.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
     x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
     fitted = _with_intervals(model, x, found.jac, found.fun, confidence)
-    if (asked := load_asked({**model.held, **model.values(x)}, fitted.case)) is not None:
-        warn_of_mean_loads([(asked, mean_normal_force(fitted.case))], "at the best fit ")
+    warn_of_load({**model.held, **model.values(x)}, fitted.case, "at the best fit ")
     return fitted
 
 

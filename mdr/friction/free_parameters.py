@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
-from mdr.case.units import facts_at
+from mdr.case.paths import GROUPS, HOLD, RIG, facts_at
+from mdr.given.vary import case_at, value_at
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import GROUPS, HOLD, RIG, case_at, fields_of, value_at
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
+from mdr.tools.fields import fields_of
 from mdr.tools.messages import offer, short
 
 NONE: Mapping[str, Any] = {}  #: is held

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.plots.figures import axes_of, colours, edges_of, prefix, style, subplots
 from mdr.studies.axes import Axis
 from mdr.studies.points import Status

@@ -29,14 +29,13 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
-from mdr.case.units import facts_at
-from mdr.normal.vary import GROUPS, RIG, fields_of, fields_set
+from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_set
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
+from mdr.tools.fields import fields_of
 from mdr.tools.messages import nearest, one_line, short
 from mdr.tools.records import ArrayRecord
 
-VELOCITIES = ("v_0", "v_0/v_c")
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 

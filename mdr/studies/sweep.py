@@ -12,10 +12,10 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.given.mean_load import warn_of_mean_loads
+from mdr.given.vary import load_asked, still_held
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.normal.mean_load import warn_of_mean_loads
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import load_asked, still_held
 from mdr.studies.axes import read_axes
 from mdr.studies.engine import Call
 from mdr.studies.quantities import Quantity, read_quantities

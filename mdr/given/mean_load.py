@@ -7,22 +7,13 @@ the depth stays, `hold = "depth"`; of a weight the load, `hold = "load"`.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.normal_force import mean_normal_force
 from mdr.tools.arrays import EXACT, SAME
 from mdr.tools.warned import warn_outside
 
-HOLDS = ("depth", "load")
 MATTERS = 0.01  #: of the load, by which the mean load may differ without a word
-
-
-def hold_of(value: Any) -> str:
-    """What stays, "depth" or "load". ValueError for anything else."""
-    if value not in HOLDS:
-        raise ValueError(f'hold must be "depth" or "load", got {value!r}')
-    return str(value)
 
 
 def under_mean_load(at: Callable[[float], SlidingContact], load: float, least: float, rest: float) -> SlidingContact:
