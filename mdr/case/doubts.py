@@ -2,7 +2,7 @@
 
 A record refuses what cannot be. What can be but hardly ever is meant (a cone of 57 degrees, an amplitude ten times the
 mean depth, a contact a million times softer than the spring that pulls it) is computed, with a warning: most often a
-unit is wrong. Each limit below is far from usual contacts and near what the theory of small slopes still carries.
+unit is wrong. Each limit is far from usual contacts and near what the theory of small slopes still carries.
 Of a mass that a load moves, `mdr.normal.stability` says what is unlikely.
 """
 
@@ -16,11 +16,8 @@ from mdr.case.contact import SlidingContact
 from mdr.indenters.base import Indenter
 from mdr.tools.memoise import remembered
 
-GREATEST_ALPHA = 5.0  #: du_z/u_z0
 GREATEST_MU_0 = 2.0  #: rubber on glass comes near it; more is a percentage, or a force
-GREATEST_T = 5.0  #: omega tau of a Kelvin body; loss tangents of rubber are below 3
 STIFFEST = 1e4  #: stiffness of the pulling spring over that of the contact, or over m omega², which it makes negligible
-SOFTEST = 1e-6  #: its stiffness over that of the contact; metals, or a tip on its cantilever, are at 1e-4 to 1e-5
 
 
 def doubts_of(known: SlidingContact) -> tuple[str, ...]:
@@ -61,7 +58,7 @@ def _of_shape(known: SlidingContact) -> Iterator[str]:
 
 def _of_motion(known: SlidingContact) -> Iterator[str]:
     is_given = known.oscillation.knows_depth and known.oscillation.load is None
-    if is_given and known.working_depth > 0 and known.alpha > GREATEST_ALPHA:
+    if is_given and known.working_depth > 0 and known.alpha > 5.0:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
             f"u_z0 = {known.cycle.u_z0:.4g} m), so that the contact is open most of the time: are the two swapped?"
@@ -72,7 +69,7 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
 
 def _of_material(known: SlidingContact) -> Iterator[str]:
     T = max(frequencies(known)) * known.material.tau
-    if T > GREATEST_T and not known.material.contact_arms:
+    if T > 5.0 and not known.material.contact_arms:
         yield (
             f"omega tau = {T:.3g} is the loss tangent of this Kelvin body, and that of rubber is below 3: is tau "
             "in ms, or omega far beyond the measurement of tau? A material with arms (Prony) stays bounded there"
@@ -89,7 +86,7 @@ def _of_pull(known: SlidingContact) -> Iterator[str]:
             f"the spring of the pull is {ratio:.3g} times as stiff as the contact, which is as good as a rigid pull: "
             "is the modulus in MPa, or k_x in a wrong unit?"
         )
-    if ratio < SOFTEST:
+    if ratio < 1e-6:  # metals, or a tip on its cantilever, are at 1e-4 to 1e-5
         yield (
             f"the contact is {1 / ratio:.3g} times as stiff as the spring of the pull: is k_x in N/mm, or the modulus "
             "in a wrong unit?"

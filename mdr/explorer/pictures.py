@@ -31,7 +31,6 @@ from mdr.tools.progress import silent, time_limit
 
 RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
 WAITS = "…"  #: for a number that is being computed
-PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,10 +97,10 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
 
 
 def _in_time(better: Callable[[Picture], Picture], picture: Picture) -> Picture:
-    """What becomes of a picture within PATIENCE; once more where compiling was what took the time."""
+    """What becomes of a picture within eight seconds of computing; once more where compiling was what took the time."""
     for _ in range(2):
         before = TALLY.done
-        with time_limit(PATIENCE):
+        with time_limit(8.0):
             after = better(picture)
         if TALLY.done == before:
             break

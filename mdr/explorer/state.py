@@ -22,8 +22,6 @@ from mdr.normal.resolved import at_rest
 from mdr.tools.checks import finite, positive
 from mdr.tools.fields import fields_of
 
-SMALL = 0.1  #: of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
-NATURAL = 2.0  #: omega_0/omega of a new body: off resonance, which is at 1
 DECADE = 10.0  #: how far a slider goes to both sides of the first value, and a curve beyond the velocity scale
 
 
@@ -132,17 +130,19 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     depth, kappa = case.contact_depth, case.material.mindlin_ratio
     k_zc = float(case.indenter.stiffness(depth, case.material.E_star))
     load, k_x = float(case.indenter.force(depth, case.material.E_star)), k_zc / kappa
-    m = k_x / (NATURAL * case.omega) ** 2
+    small = 0.1  # of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
+    natural = 2.0 * case.omega  # of a new body: off resonance
+    m = k_x / natural**2
     sizes = {
         "u_z0": depth,
-        "du_z": SMALL * depth,
+        "du_z": small * depth,
         "F_z0": load,
-        "dF_z": SMALL * load,
-        "m_z": k_zc / (NATURAL * case.omega) ** 2,
-        "tau": SMALL / case.omega,
+        "dF_z": small * load,
+        "m_z": k_zc / natural**2,
+        "tau": small / case.omega,
         "k_x": k_x,
         "m": m,
-        "c_x": 2 * SMALL * float(np.sqrt(k_x * m)),
+        "c_x": 2 * small * float(np.sqrt(k_x * m)),
         "du_x": case.mu_0 * kappa * depth / 2,
         "du_y": case.mu_0 * kappa * depth / 2,
     }

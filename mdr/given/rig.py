@@ -25,8 +25,6 @@ from mdr.tools.keywords import offering
 from mdr.tools.notation import GRAVITY
 from mdr.tools.warned import warn_outside
 
-LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
-
 
 @offering
 def rig(
@@ -228,8 +226,8 @@ def _warn_of_waves(case: SlidingContact, density: float) -> None:
     stiffening = abs(complex(case.material.dynamic_modulus(case.omega))) / case.material.E_star
     G = case.material.G_star * (2 - poisson_ratio_of(case.material.mindlin_ratio)) / 4 * stiffening
     wavelength = 2 * math.pi / case.omega * math.sqrt(G / density)
-    if wavelength < LONG * width:
+    if wavelength < 10 * width:
         warn_outside(
             f"shear waves in the half-space are about {wavelength:.3g} m long at this frequency, and the contact is "
-            f"{width:.3g} m wide: the springs are quasi-static, which wants waves {LONG:g} times as long"
+            f"{width:.3g} m wide: the springs are quasi-static, which wants waves 10 times as long"
         )

@@ -28,11 +28,6 @@ from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
 from mdr.tools.notation import GRAVITY
 
-N_BAND = 32  #: springs that touch and leave
-HEAVIEST = 10.0  #: weight of a mass that the load moves over the mean load; springs may carry some of it
-SOFTENED = 0.03  #: change of stiffness with amplitude over the dynamic stiffness less m_z omega², of a small amplitude
-UNSTABLE = 1.001  #: Floquet multiplier; without damping it is 1 of a stable depth
-
 
 @remembered(maxsize=64)
 def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillation, cycle: Cycle) -> float:
@@ -41,7 +36,7 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     A deviation grows by this factor in a period: above 1 the depth is unstable.
     """
     rheology, h = Rheology.periodic(material, load.omega), 2 * np.pi / N_STEPS
-    _, gap, width, n_core = nodes(shape, cycle, cycle.kept_gap(rheology.response), N_BAND)
+    _, gap, width, n_core = nodes(shape, cycle, cycle.kept_gap(rheology.response), 32)  # that touch and leave
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
     band = followed_springs(rheology, gap[n_core:] / cycle.unit, width[n_kept:], cycle, N_STEPS)
@@ -83,7 +78,7 @@ def doubts_of_load(known: SlidingContact) -> Iterator[str]:
         )
     if known.oscillation.knows_depth:
         grows = floquet_multiplier(known.indenter, known.material, load, known.oscillation.cycle)
-        if grows > UNSTABLE:
+        if grows > 1.001:  # without damping it is 1 of a stable depth
             yield (
                 f"the periodic depth that was found under the load is unstable: a deviation grows {grows:.3g} times in "
                 "a period (its Floquet multiplier), so that m_z will move in another way, in another rhythm or in "
@@ -95,7 +90,8 @@ def doubts_of_load(known: SlidingContact) -> Iterator[str]:
                 f"stable (Floquet multiplier {grows:.3g}), but a bouncing mass may move in several ways"
             )
     softened = _softened(known, load)
-    if softened > SOFTENED:
+    # the closed form is off by about as much
+    if softened > 0.03:
         what = "would open the contact, or leave the shape"
         if softened < np.inf:
             what = f"changes the stiffness of the contact by {softened:.2g} of what m_z omega² leaves of it"
@@ -104,7 +100,8 @@ def doubts_of_load(known: SlidingContact) -> Iterator[str]:
             f"contact: the amplitude of depth that a small load would have {what}, and the closed form is off by "
             "about as much; full_slip_critical_velocity(case) takes the depth that the load brings about"
         )
-    if m_z * GRAVITY > HEAVIEST * load.F_z0:
+    # springs may carry some of the weight
+    if m_z * GRAVITY > 10.0 * load.F_z0:
         yield (
             f"the weight of m_z, {m_z * GRAVITY:.4g} N, is {m_z * GRAVITY / load.F_z0:.3g} times the mean load: is it "
             "in grams, or is the load given without the weight?"

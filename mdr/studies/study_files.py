@@ -32,7 +32,7 @@ from mdr.case.paths import facts_at, fields_set
 from mdr.case.pull import RigidPull
 from mdr.files.case_files import record_of
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, tried
-from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.friction.cof_curve import require_knobs
 from mdr.given.case_file import case_of, stand_in
 from mdr.march.march import BUDGET, accuracy_of
 from mdr.studies.axes import read_axes
@@ -76,8 +76,7 @@ def study_from(content: Mapping[str, Any]) -> StudyFile:
     quantities = content.get("quantities", ["cof"])
     faults += _faults_of_names(quantities)
     knobs = {name: content.get(name) for name in ("n_springs", "steps_per_period")}
-    for name, knob in knobs.items():
-        faults += tried(count, name, knob, LEAST_KNOB)[1] if knob is not None else []
+    faults += [fault for name, knob in knobs.items() for fault in tried(require_knobs, **{name: knob})[1]]
     accuracy = content.get("accuracy", BUDGET)
     faults += tried(accuracy_of, accuracy)[1]
     try:
