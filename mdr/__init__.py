@@ -15,12 +15,13 @@ from mdr.case.contact import SlidingContact
 from mdr.normal.load_control import static_depth, static_load
 from mdr.normal.resolved import plausibility, resolved
 from mdr.tools.warned import PlausibilityWarning
-from mdr.normal.rig import rig
 from mdr.normal.springs import SpringArray
 from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
 
-from mdr.files.case_files import parse_case, read_case, write_case
+from mdr.files.case_files import write_case
+from mdr.given.rig import rig
+from mdr.given.case_file import parse_case, read_case
 from mdr.files.toml_text import CaseFileError
 from mdr.files.measurements import read_moduli, read_record
 from mdr.files.own_records import register

@@ -39,8 +39,8 @@ from mdr.commands import (
 )
 from mdr.commands.arguments import NEGATIVE, joined, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
-from mdr.files.case_files import read_case, read_said
 from mdr.files.toml_text import CaseFileError
+from mdr.given.case_file import read_case, read_said
 from mdr.normal.resolved import plausibility
 from mdr.studies.study_files import read_study_file
 from mdr.tools.warned import PlausibilityWarning, warn_outside

@@ -58,7 +58,7 @@ def blocks(page: Path) -> list[Block]:
 
 def run(page: Path) -> list[tuple[Block, str]]:
     """Run a page in the working directory: its text blocks, and what was printed above each."""
-    from mdr.files.case_files import parse_case
+    from mdr.given.case_file import parse_case
     from mdr.studies.study_files import parse_study
 
     names: dict[str, Any] = {"__name__": "__main__"}

@@ -1,7 +1,7 @@
 """The rooms of mdr/ and who may import whom, read off the imports of every file, also those inside functions.
 
-A record may open a door upwards: inside its methods `plot...`, `animate`, `to_...` and `read` it may import what draws
-or files it, so that `run.plot()` needs no second name. Nothing else runs back.
+Pictures read records by attribute, and stand below what makes these, so that `run.plot()` runs down like all else. One
+door leads upwards: inside its method `read` a record may import what reads it from a file.
 """
 
 import ast
@@ -21,17 +21,16 @@ ORDER = (
     ("indenters",),
     ("materials",),
     ("case", "spring"),
-    ("normal",),
-    ("files",),
+    ("files", "normal", "plots"),
+    ("given",),
     ("closed_forms", "element", "half_space", "march"),
     ("friction",),
     ("studies",),
-    ("plots",),
     ("explorer",),
     ("commands",),
 )
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
-DOORS = ("plot", "animate", "to_", "read")  # methods of records that may import upwards
+DOORS = ("read",)  # methods of records that may import upwards
 OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the command
 #: Imports against the order, each with its reason. The list may only shrink.
 NAMED: dict[tuple[str, str], str] = {}
@@ -63,7 +62,7 @@ def imports_of(module, path, known):
         if isinstance(node, ast.ClassDef):
             in_class = True
         elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            door = door or (in_class and node.name.startswith(DOORS))
+            door = door or (in_class and node.name in DOORS)
         elif isinstance(node, ast.Import):
             found.update((one.name, door) for one in node.names if one.name.partition(".")[0] == package)
         elif isinstance(node, ast.ImportFrom):
@@ -153,13 +152,13 @@ def may_import(room, other):
     return room == other or RANK[other] < RANK[room]
 
 
-def test_doors_lead_to_pictures_and_files(house):
-    """A method that may import upwards imports what draws or files the record, and no more."""
+def test_the_door_leads_to_files(house):
+    """A method that may import upwards imports what reads the record from a file, and no more."""
     _, imports = house
     upwards = {
         imported for module, imported, door in imports if door and not may_import(room_of(module), room_of(imported))
     }
-    assert {room_of(module) for module in upwards} <= {"plots", "files"}
+    assert {room_of(module) for module in upwards} == {"files"}
 
 
 def test_no_circles(house):
@@ -227,6 +226,28 @@ def test_a_record_never_solves(house):
     assert ways_between(imports, known, inside({"case"}, known), solvers) == []
 
 
+def test_a_reader_does_not_solve(house):
+    """What stands in a file is read before anything is solved for: `files` knows of no solver."""
+    known, imports = house
+    solvers = inside({"given", "normal", "closed_forms", "march", "friction", "studies"}, known)
+    assert ways_between(imports, known, inside({"files"}, known), solvers) == []
+
+
+def test_what_users_say_is_not_the_normal_problem(house):
+    """The paths, settings and words of users are translated above the normal problem, which knows none of them."""
+    known, imports = house
+    users = {"mdr.case.paths"} | inside({"given"}, known)
+    no_doors = {one for one in imports if not one.door}
+    assert ways_between(no_doors, known, inside({"normal"}, known), users) == []
+
+
+def test_commands_do_not_need_the_page(house):
+    """Of the explorer, commands know what serves it."""
+    _, imports = house
+    asked = {imported for module, imported, _ in imports if room_of(module) == "commands"}
+    assert {module for module in asked if room_of(module) == "explorer"} == {"mdr.explorer.server"}
+
+
 def test_pictures_compute_nothing(house):
     known, imports = house
     asked = {imported for module, imported, _ in imports if room_of(module) == "plots"}
@@ -240,7 +261,7 @@ def test_imports_are_found_wherever_they_stand(tmp_path):
     (package / "__init__.py").write_text("")
     (package / "a.py").write_text("def solve():\n    from toy import b\n")
     (package / "b.py").write_text("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from toy.c import C\n")
-    (package / "c.py").write_text("class C:\n    def plot(self):\n        import toy.a\n")
+    (package / "c.py").write_text("class C:\n    def read(self):\n        import toy.a\n")
     _, imports = house_of(package)
     assert sorted(imports) == [("toy.a", "toy.b", False), ("toy.b", "toy.c", False), ("toy.c", "toy.a", True)]
     assert circles(imports) == [("toy.a", "toy.b", "toy.c")]

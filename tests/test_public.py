@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import mdr
-from mdr.files.case_files import read_case
+from mdr.given.case_file import read_case
 
 ROOT = Path(__file__).parents[1]
 

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.closed_forms.full_slip import full_slip
 from mdr.tools.checks import FieldError, FieldTypeError
 from mdr.tools.fields import example_of, facts_of, has_example
+from validation.full_slip import full_slip
 
 NAN, INF = math.nan, math.inf
 BALL, RUBBER, SLED = mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.SpringPull(2e4, 0.1, 4.0)

@@ -20,11 +20,12 @@ from typing import Any
 import numpy as np
 
 import mdr
-from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
+from mdr.closed_forms.full_slip import normal_force_harmonics
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import SWUNG, contact, loss
 from validation.figures import figure, ticks
+from validation.full_slip import full_slip
 from validation.measured import power
 from validation.report import Check, Checks, Claim
 from validation.words import span

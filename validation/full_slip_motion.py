@@ -15,11 +15,11 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms import paper as theory
-from mdr.closed_forms.full_slip import full_slip
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, widest_cell
 from validation.figures import circles, figure, ticks
+from validation.full_slip import full_slip
 from validation.measured import power
 from validation.report import Check, Checks, Claim
 

@@ -19,12 +19,12 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.closed_forms import paper as theory
-from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, shape_label
 from validation.figures import figure
+from validation.full_slip import full_slip
 from validation.report import Check, Checks, Claim, Equation
 
 QUICK = (

@@ -5,7 +5,7 @@ A periodic record is fitted by a mean, a linear drift and harmonics of one funda
     a(t) = mean + drift t + Re of sum over n of A_n exp(i n omega t),
 
 with the instants as they are, even or not. A harmonic is kept where noise alone, taken as
-white, would not reach it anywhere in its spectrum, but for a probability of FALSE. Twice integrated it is
+white, would not reach it anywhere in its spectrum, but for a probability of 1e-4. Twice integrated it is
 -A_n/(n omega)².
 """
 
@@ -23,11 +23,8 @@ from mdr.tools.warned import warn_outside
 
 LEAST_PERIODS = 2.9  #: in a record: three, but for what their number is uncertain by
 MOST = 100  #: harmonics that are looked at
-ALIKE = 0.3  #: two lines, times the length of the record, that are one
 AT_ONCE = 1024  #: samples whose powers are held
-FALSE = 1e-4  #: probability that noise alone passes for a line, of as many as there are samples
 ROUNDING = 1e-14  #: mean square of a rest, over that of the record, that may be rounding
-LEFT_OUT = 0.05  #: share of the mean square, above which what was left out is told
 
 Complex = NDArray[np.complex128]
 Orders = NDArray[np.intp]
@@ -57,7 +54,7 @@ class _Fit(NamedTuple):
     orders: Orders
     A: Complex  #: (n_orders,)
     columns: Array  #: factors of the columns, the drift first
-    noise: Array  #: (n_orders,) |A|² that white noise passes at one frequency in n_t with the probability FALSE
+    noise: Array  #: (n_orders,) |A|² that white noise passes at one frequency in n_t with the probability 1e-4
 
 
 def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
@@ -131,7 +128,7 @@ def _fitted(record: _Record, omega: float, orders: Orders, *columns: Array) -> _
     seen_a = np.concatenate([beside[0], rows[1:] @ a])
     c = inverse @ seen_a
     rest = max(float(a @ a - (seen_a.conj() @ c).real), ROUNDING * float(a @ a))
-    noise = 4 * np.log(t.size / FALSE) * rest / max(t.size - len(c), 1)
+    noise = 4 * np.log(t.size / 1e-4) * rest / max(t.size - len(c), 1)
     ahead = slice(orders.size + 1, n.size)
     return _Fit(orders, 2 * c[ahead], c[n.size :].real, noise * inverse.diagonal()[ahead].real)
 
@@ -186,7 +183,8 @@ def _score(record: _Record, omega: float) -> tuple[float, _Record]:
 
 def _divisor(record: _Record, omega: float, rest: _Record) -> int:
     """The least q for which omega/q has the loudest line of the rest among its multiples; 1 where there is none."""
-    ratio, off = _loudest(rest) / omega, ALIKE / record.periods(omega)
+    # lines nearer than 0.3 over the length of the record are one
+    ratio, off = _loudest(rest) / omega, 0.3 / record.periods(omega)
     most = min(MOST, int(record.periods(omega) / LEAST_PERIODS))
     return next((q for q in range(1, most + 1) if abs(round(q * ratio) / q - ratio) < off), 1)
 
@@ -235,7 +233,7 @@ def _tell(record: _Record, omega: float, A: Complex, fit: _Fit) -> None:
     """Warn of what the series leaves out, and of harmonics up to where sampling ends."""
     rest = record.a - harmonic_sum(A, omega * record.t)
     all_of_it, drift = record.a.var(), fit.columns[0] * record.t / record.span
-    if rest.var() > LEFT_OUT * all_of_it:
+    if rest.var() > 0.05 * all_of_it:  # what was left out is told above this share
         warn_outside(
             f"the series at {omega / (2 * np.pi):.6g} Hz leaves out {rest.var() / all_of_it:.0%} of the mean square of "
             f"a, {drift.var() / all_of_it:.0%} of it a linear drift: noise, another frequency, or a wrong one?"

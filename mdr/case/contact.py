@@ -404,12 +404,8 @@ def _told(name: str, part: Any) -> Row:
     if not is_dataclass(part):
         return name, type(part).__name__, short(repr(part))
     given = [(one, getattr(part, one.name)) for one in fields(part) if one.init]
-    values = [_written(one.name, value, facts_of(one).unit) for one, value in given if not _is_left_out(value)]
+    values = [_written(one.name, value, facts_of(one).unit) for one, value in given if value not in (None, ())]
     return name, type(part).__name__, ", ".join(values)
-
-
-def _is_left_out(value: Any) -> bool:
-    return value is None or (isinstance(value, tuple) and not value)
 
 
 def _written(name: str, value: Any, unit: str) -> str:

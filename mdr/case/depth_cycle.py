@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
 
-DENSE = 64  #: instants per period of the highest harmonic, between which an extreme is found
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cycle(ArrayRecord):
@@ -132,7 +130,8 @@ def turns(harmonics: NDArray[np.complex128], highest: bool = False) -> Array:
     n, C = used + 1, harmonics[used]
     if n.size < 2:
         return np.sort(np.mod((np.pi * np.arange(2 * n.sum()) - np.angle(C)) / n, 2 * np.pi)) if n.size else np.zeros(0)
-    count = int(2 ** np.ceil(np.log2(max(DENSE * n[-1], 256))))
+    # 64 instants per period of the highest harmonic, between which an extreme is found
+    count = int(2 ** np.ceil(np.log2(max(64 * n[-1], 256))))
     spectrum = np.zeros((2, count // 2 + 1), dtype=complex)
     spectrum[:, n] = C * count / 2, 1j * n * C * count / 2
     values, slopes = np.fft.irfft(spectrum, count)

@@ -9,11 +9,7 @@ from mdr.case.acceleration import sampled
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import FieldError, positive
 
-UNEVEN = 0.1  #: of a step, which sampled instants may be off a grid
 ORDER = 4  #: of the Butterworth filter
-REACH = 8.0  #: times 1/high_pass, after which the response of the filter is below 1e-8
-ENDS = 1.0  #: times 1/high_pass: what it leaves uncertain at either end of a record
-LEAST = 0.25  #: times 1/high_pass: what must be left between them
 
 
 def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
@@ -62,7 +58,7 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     t, a = sampled(t, a)
     high_pass, step = positive("high_pass", high_pass, "in Hz"), (t[-1] - t[0]) / (t.size - 1)
     off = np.abs(t - t[0] - step * np.arange(t.size)) / step
-    if off.max() > UNEVEN:
+    if off.max() > 0.1:  # instants may be off a grid by this share of a step
         raise FieldError(
             f"t must rise in equal steps, but sample {np.argmax(off)} is off by {off.max():.2g} steps: interpolate a",
             "t",
@@ -74,7 +70,8 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
             f"rate, got {high_pass:.6g}",
             "high_pass",
         )
-    n = t.size + int(REACH / (high_pass * step)) + 1
+    # after 8/high_pass the response of the filter is below 1e-8
+    n = t.size + int(8.0 / (high_pass * step)) + 1
     x = np.fft.rfftfreq(n, step) / high_pass
     gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
     u = np.fft.irfft(gain * np.fft.rfft(a - a.mean(), n), n)[: t.size]
@@ -99,8 +96,8 @@ def inner_part(t: Array, high_pass: float) -> slice:
 
     FieldError where they leave too little.
     """
-    ends, long = ENDS / high_pass, float(t[-1] - t[0])
-    least = (2 * ENDS + LEAST) / long
+    ends, long = 1 / high_pass, float(t[-1] - t[0])
+    least = 2.25 / long  # 0.25/high_pass must be left between the ends
     if high_pass < least * (1 - SAME):
         raise FieldError(
             f"high_pass = {high_pass:.6g} Hz leaves the displacement uncertain for {ends:.4g} s at either end of the "

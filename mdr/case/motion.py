@@ -45,8 +45,6 @@ def fill_up(record: Any, *names: str) -> int:
     return length
 
 
-REPEATS = 0.99  #: share of the mean square in every nth harmonic, above which depths repeat n times
-GREATEST_SWING = 0.01  #: amplitude of depth [m], above which it is hardly meant
 NO_DEPTH = "amplitude of the depth in m; a depth that does not oscillate is a ConstantDepth"
 NO_LOAD = "amplitude of the load in N; a load that does not oscillate is a ConstantLoad"
 FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$", example=314.159)
@@ -263,7 +261,8 @@ class PeriodicMotion(Motion):
         spectrum = np.fft.rfft(u_z)[1 : keep + 1] * 2 / u_z.size
         motion, power = cls(omega, float(u_z.mean()), tuple(spectrum.real), tuple(-spectrum.imag)), abs(spectrum) ** 2
         n = 1 + int(np.argmax(power))
-        if n > 1 and power[n - 1 :: n].sum() > REPEATS * power.sum():
+        # a depth repeats n times if nearly all of its mean square is in every nth harmonic
+        if n > 1 and power[n - 1 :: n].sum() > 0.99 * power.sum():
             warn_outside(f"u_z repeats {n} times: give one period, and omega of that period")
         return motion._not_wide("is u_z an acceleration? PeriodicMotion.from_acceleration integrates one")
 
@@ -326,7 +325,7 @@ class PeriodicMotion(Motion):
 
     def _not_wide(self, question: str) -> PeriodicMotion:
         """The motion; with a warning where its amplitude is hardly meant."""
-        if self.cycle.du_z > GREATEST_SWING:
+        if self.cycle.du_z > 0.01:  # [m]: hardly meant
             warn_outside(f"the amplitude of the depth is {self.cycle.du_z:.3g} m: {question}")
         return self
 

@@ -18,7 +18,6 @@ from mdr.tools.checks import FieldError, FieldTypeError, count, not_negative, po
 from mdr.tools.fields import Record, facts
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for a line times f^6
-MOST_ORDER = 6
 
 
 def _row(name: str, values: Any, note: str = "") -> tuple[float, ...]:
@@ -100,8 +99,8 @@ class Spectrum(Record):
             For an order that is no whole number, or beyond 6.
         """
         f, density = self._nodes
-        if count("k", k, 0) > MOST_ORDER:
-            raise ValueError(f"k must be at most {MOST_ORDER}, got {k}")
+        if count("k", k, 0) > 6:
+            raise ValueError(f"k must be at most 6, got {k}")
         return float((density * (2 * np.pi * f) ** k).sum())
 
     @property

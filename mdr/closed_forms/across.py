@@ -13,8 +13,6 @@ from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.checks import instance, not_negative, positive
 
-NODES = 64  #: of Gauss's rule on a piece of the contact; the integrand ends like a root, which its map removes
-
 
 def held_across(indenter: Indenter, d: float, d_y: float, *, surface: bool = False) -> float:
     """Static friction [-] of a contact of constant depth that is shaken across, over mu_0.
@@ -114,7 +112,7 @@ def _by_springs(indenter: Indenter, d: float, d_y: float) -> float:
     def spare(x: float) -> float:
         return d - d_y - float(indenter.profile_1d(x))
 
-    x = np.union1d(np.linspace(0, a, NODES), [kink for kink in indenter.kinks if kink < a])
+    x = np.union1d(np.linspace(0, a, 64), [kink for kink in indenter.kinks if kink < a])
     at = np.array([spare(one) for one in x])
     edges = [brentq(spare, x[i], x[i + 1]) for i in np.flatnonzero(at[:-1] * at[1:] < 0)] if d_y else []
     x, weight = places(indenter, a, edges)
@@ -132,7 +130,7 @@ def _on_surface(indenter: Indenter, d: float, depth: float) -> float:
 def places(indenter: Indenter, a: float, edges: Sequence[float] = ()) -> tuple[Array, Array]:
     """Nodes and weights over the contact of radius a, between kinks and edges; crowded to both ends of each piece."""
     ends = np.unique([0.0, *(kink for kink in indenter.kinks if kink < a), *edges, a])
-    u, w = np.polynomial.legendre.leggauss(NODES)
+    u, w = np.polynomial.legendre.leggauss(64)  # the integrand ends like a root, which the map of the piece removes
     u = 0.5 * (1 + u)
     place, share = u * u * (3 - 2 * u), 3 * w * u * (1 - u)
     length = np.diff(ends)[:, None]

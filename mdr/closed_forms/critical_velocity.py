@@ -10,6 +10,9 @@ from mdr.case.motion import LoadOscillation
 from mdr.closed_forms.paper import linear_critical_velocity
 from mdr.normal.resolved import at_rest, resolved
 
+UP_TO = 1.3  #: of `velocity_scale`, at which friction has become mu_0: end of a curve
+POINTS = 24  #: of a curve: its corner at v_c is seen to a twentieth
+
 
 def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     """Critical velocity [m/s] in closed form, Eq. (15): pulled faster, the oscillation no longer lowers friction.

@@ -37,7 +37,6 @@ from mdr.tools.arrays import EXACT, SAME, Array
 N_NODES = 20  #: Gauss points of a panel: half a wave on it is exact to rounding
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there
 MISSED = SHRINK**N_NODES  #: of the whole: no panel beside a cut need be smaller, and no smaller harmonic counts
-MOST_PANELS = 4000  #: to follow the free oscillation of a light body
 
 
 def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> float:
@@ -187,7 +186,7 @@ def _time_panels(case: SlidingContact, rates: NDArray[np.complex128], cuts: Arra
     stretches = pairwise([*cuts, cuts[0] + 2 * np.pi])
     ends = np.concatenate([_graded(low, high, smallest) for low, high in stretches] + [cuts[:1] + 2 * np.pi])
     length = np.diff(ends)
-    parts = np.ceil(length / max(most, 2 * np.pi / MOST_PANELS)).astype(int)
+    parts = np.ceil(length / max(most, 2 * np.pi / 4000)).astype(int)  # follows a light body's
     part = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)  # 0, 1, ... in each stretch
     ends = np.append(np.repeat(ends[:-1], parts) + part * np.repeat(length / parts, parts), ends[-1])
     low, high = ends[:-1], ends[1:]

@@ -52,8 +52,6 @@ from mdr.tools.arrays import EPS, EXACT, Array, beyond
 from mdr.tools.records import ArrayRecord
 
 TOLERANCE = 2e-10  #: of the sum over an interval of springs, over that of the compression of all
-MOST_INTERVALS = 2000  #: to be halved, and 20 for each velocity; beyond, the error is larger than wanted
-MOST_HARMONICS = 64  #: of depth and way; a run is as fast with more
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -105,7 +103,8 @@ class ShakenPull(ArrayRecord):
 def has_closed_form(case: SlidingContact) -> bool:
     """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
     known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
-    if not known or case.moves_across or max(case.cycle.cos.size, case.way.size) > MOST_HARMONICS:
+    # with more harmonics of depth and way a run is as fast
+    if not known or case.moves_across or max(case.cycle.cos.size, case.way.size) > 64:
         return False
     reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
     return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'
@@ -128,7 +127,8 @@ def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Arra
     allowed = TOLERANCE * _compression(pull)
     while owner.size:
         sums, missed = _integrals(pull, harmonics, v, owner, low, high, allowed)
-        done = (missed <= allowed) | (np.sum(missed > allowed) > MOST_INTERVALS + 20 * v.size)
+        # so many intervals are halved at most; beyond, the error is larger than wanted
+        done = (missed <= allowed) | (np.sum(missed > allowed) > 2000 + 20 * v.size)
         for row, found in zip(total, sums, strict=True):
             row += np.bincount(owner[done], found[done], v.size)
         error += np.bincount(owner[done], missed[done], v.size)

@@ -136,6 +136,13 @@ def quantity(name: str, unit: str, of: str = "") -> Callable[[str], Asked]:
 velocity = quantity("a velocity", "m/s", OF_V_C)
 
 
+def add_velocity(command: argparse.ArgumentParser) -> None:
+    """The pulling velocity, without which nothing is done."""
+    meaning = "pulling velocity: in m/s, with a unit or over v_c, as 1e-3, 1mm/s, 0.5v_c"
+    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=meaning)
+    command.usage = "%(prog)s case.toml --v-0 velocity [options]"
+
+
 def stand_in_of_v_c(case: mdr.SlidingContact) -> str:
     """What stands in the place of v_c in a curve's velocities, in a sentence; empty where v_c does."""
     wrong = _no_scale(mdr.critical_velocity(case))

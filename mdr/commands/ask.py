@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 
 import mdr
-from mdr.case.units import facts_at
-from mdr.commands.arguments import OF_MU_0, plain_number, quantity, velocity
-from mdr.commands.output import Exit, WrongInput, answer, picked
+from mdr.case.paths import facts_at
+from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
+from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import Said
 from mdr.friction.free_parameters import path_of
+from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
 
@@ -32,22 +32,18 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
 def find(args: argparse.Namespace, asked: Said) -> int:
     """Search and print; status 1 where there is no such value."""
     wish = {name: getattr(args, name).on(asked.case) for name in ("v_0", "cof", "v_c") if getattr(args, name)}
-    try:
+    with refusals():
         path = path_of(asked.case, args.path)
         unit = facts_at(path).unit
         within = args.within and tuple(value_in("--within", end, unit) for end in args.within)
         found = mdr.find(asked.case, path, **wish, within=within, held=asked.held)
-    except ValueError as fault:
-        raise WrongInput(str(fault)) from None
     answer(args, {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit}, str(found), asked.case)
     return Exit.DONE if found.values else Exit.FAILED
 
 
 def add_options_of_tolerance(command: argparse.ArgumentParser) -> None:
     """The velocity, the share, the inputs, and where to write."""
-    at = "pulling velocity: 1e-3 [m/s], 1mm/s, 0.5v_c"
-    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=at)
-    command.usage = "%(prog)s case.toml --v-0 velocity [options]"
+    add_velocity(command)
     share = plain_number("-", "a share, such as 10% or 0.1")
     command.add_argument("--by", metavar="share", type=share, default=0.1, help="less and more by this (default: 10%%)")
     named = "inputs, such as mu_0 load oscillation.du_z (default: all numbers of the case, and v_0)"
@@ -58,10 +54,8 @@ def add_options_of_tolerance(command: argparse.ArgumentParser) -> None:
 def tolerance(args: argparse.Namespace, asked: Said) -> int:
     """Vary each input, write and print; status 1 if a run did not settle."""
     folder = output_folder(args)
-    try:
+    with refusals():
         found = mdr.tolerance(asked.case, args.v_0.on(asked.case), args.by, args.fields, held=asked.held)
-    except ValueError as fault:
-        raise WrongInput(str(fault)) from None
     if folder is not None:
         write_text(args, folder / "tolerance.csv", found.table(), str(found))
         write_figure(args, folder / "tolerance", found.plot)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any
 
-from mdr.commands.output import WrongInput, answer
+from mdr.commands.output import answer, refusals
 from mdr.files.case_files import nameable
 from mdr.files.examples import MOTIONS, PULLS, SHAKES, STILL, example, example_file
 from mdr.tools.fields import facts_of
@@ -33,10 +33,8 @@ def shapes(args: argparse.Namespace, _: None) -> int:
 
 def case(args: argparse.Namespace, _: None) -> int:
     """Print a commented case file."""
-    try:
+    with refusals():
         found = example(args.example, args.material, args.motion, args.pull, args.shake)
-    except ValueError as fault:
-        raise WrongInput(str(fault)) from None
     return answer(args, {}, example_file(found).removesuffix("\n"), found)
 
 

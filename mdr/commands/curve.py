@@ -9,12 +9,11 @@ from collections.abc import Iterator
 import numpy as np
 
 import mdr
-from mdr.closed_forms.critical_velocity import velocity_scale
+from mdr.closed_forms.critical_velocity import POINTS, UP_TO, velocity_scale
 from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, stand_in_of_v_c, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.explorer.state import POINTS, UP_TO
 
 
 def add_options(command: argparse.ArgumentParser) -> None:

@@ -18,11 +18,7 @@ from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import positive
 from mdr.tools.notation import value_in
 
-SPRINGS = 64  #: where none are asked for: forces to some 1e-3, a step of an elastic contact in about 1 µs
-MARGIN = 1.05  #: of the greatest depth of a case, where none is asked for
-MOST_SPRINGS = 4096  #: whose state a stack still holds
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,39}")  #: what names in C may begin with
-TOLD = 116  #: letters of a line about the contact
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -32,8 +28,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     depth = "greatest depth of a step (default: 5 %% above that of the case)"
     read = read_as("a depth above zero such as 40um", lambda text: positive("u_z_max", value_in("", text, "m")))
     command.add_argument("--u-z-max", metavar="m", type=read, help=depth)
-    size = whole_number(MIN_SPRINGS, MOST_SPRINGS)
-    command.add_argument("--n-springs", metavar="n", type=size, default=SPRINGS, help=f"springs (default: {SPRINGS})")
+    # by default forces to some 1e-3, a step of an elastic contact in about 1 µs
+    size = whole_number(MIN_SPRINGS, 4096)  # whose state a stack still holds
+    command.add_argument("--n-springs", metavar="n", type=size, default=64, help="springs (default: 64)")
 
 
 def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
@@ -45,7 +42,8 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     if not NAME.fullmatch(name):
         raise WrongInput(f"-o {path}: {name!r} must be a word for names in C: at most 40 letters, digits and _")
     require_free([path])
-    u_z_max = args.u_z_max or MARGIN * mdr.resolved(case).u_z_max
+    # a little more than the greatest depth of the case, where none is asked for
+    u_z_max = args.u_z_max or 1.05 * mdr.resolved(case).u_z_max
     element = mdr.ContactElement(case.indenter, case.material, case.mu_0, u_z_max=u_z_max, n_springs=args.n_springs)
     texts = {path.name: header(element, name, told(args, case))}
     if path.suffix == ".fmu":
@@ -69,4 +67,4 @@ def told(args: argparse.Namespace, case: mdr.SlidingContact) -> str:
     """The command, and shape, material and mu_0 of the case, a table a line."""
     tables = mdr.write_case(case).rstrip().split("\n\n")
     kept = [one.replace("]\n", "] ").replace("\n", ", ") for one in tables if one.startswith(("mu_0", "[ind", "[mat"))]
-    return "\n".join(shorten(line, TOLD) for line in (args.command, *kept))
+    return "\n".join(shorten(line, 116) for line in (args.command, *kept))  # fits a line of C

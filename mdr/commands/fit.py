@@ -6,13 +6,13 @@ import argparse
 from typing import Any
 
 import mdr
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, reading
-from mdr.commands.output import WrongInput, answer, picked
+from mdr.commands.output import WrongInput, answer, picked, refusals
 from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.case_files import Said
 from mdr.files.toml_text import StandardInput
 from mdr.friction.fit import Fit
+from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
 
@@ -38,12 +38,10 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     if isinstance(args.data, StandardInput) and isinstance(args.case, StandardInput):
         raise WrongInput("- stands for the case and for the data: standard input can be read once, give a file for one")
     folder = output_folder(args)
-    try:
+    with refusals():
         data = mdr.read_friction_data(args.data, **reading(args))
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
         found = mdr.fit(asked.case, data, args.free, **knobs)
-    except ValueError as fault:
-        raise WrongInput(str(fault)) from None
     if folder is not None:
         write_text(args, folder / "fitted.toml", mdr.write_case(found.case), str(found))
         write_figure(args, folder / "fit", found.plot)

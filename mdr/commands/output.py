@@ -6,7 +6,8 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -26,6 +27,15 @@ class Exit(IntEnum):
 
 class WrongInput(Exception):
     """What the user gave cannot be used."""
+
+
+@contextmanager
+def refusals() -> Iterator[None]:
+    """What is refused inside with a ValueError is wrong input."""
+    try:
+        yield
+    except ValueError as fault:
+        raise WrongInput(str(fault)) from None
 
 
 class Told(NamedTuple):

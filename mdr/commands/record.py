@@ -10,7 +10,7 @@ import mdr
 from mdr.case.displacement import inner_part
 from mdr.commands.arguments import add_reading, path_of, read_as, reading, whole_number
 from mdr.commands.output import WrongInput, answer, picked
-from mdr.commands.written import add_output, output_folder, write_figure, write_text
+from mdr.commands.written import add_output, output_folder, write_found
 from mdr.files.toml_text import StandardInput
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
@@ -55,8 +55,7 @@ def record(args: argparse.Namespace, _: None) -> int:
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {str(fault).removeprefix(f'{args.motion}: ')}") from None
     if folder is not None:
-        write_text(args, folder / "record.csv", found.table(), "", mdr.write_case(case))
-        write_figure(args, folder / "record", found.plot)
+        write_found(args, folder / "record", found, case)
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}

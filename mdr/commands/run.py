@@ -8,19 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import mdr
-from mdr.commands.arguments import add_accuracy, velocity, whole_number
+from mdr.commands.arguments import add_accuracy, add_velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
-from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
+from mdr.commands.written import add_output, made_by, output_folder, require_free, write_found
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.plots.animation import animate_springs
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The velocity, how accurately, and where to write."""
-    meaning = "pulling velocity: in m/s, with a unit or over v_c, as 1e-3, 1mm/s, 0.5v_c"
-    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=meaning)
-    command.usage = "%(prog)s case.toml --v-0 velocity [options]"
+    add_velocity(command)
     add_output(command, "run.csv", "run.png", "run.svg")
     add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
     meaning = "write a moving picture of the springs over the last period to this file, which ends in .gif"
@@ -48,8 +46,7 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
     found = mdr.slide(case, v_0, record=1, **knobs)
     if folder is not None:
-        write_text(args, folder / "run.csv", found.table(), "", mdr.write_case(case))
-        write_figure(args, folder / "run", found.plot)
+        write_found(args, folder / "run", found, case)
     if args.animate is not None:
         animate_springs(found, args.animate, comment=made_by(args))
     v_c = mdr.critical_velocity(case, -1 if v_0 < 0 else 1)

@@ -8,7 +8,7 @@ from typing import Any
 
 import mdr
 from mdr.commands.arguments import plain_number
-from mdr.commands.output import Exit, WrongInput, answer, complain, picked
+from mdr.commands.output import Exit, WrongInput, answer, complain, picked, refusals
 from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
 from mdr.studies import Status
 from mdr.studies.formats import packed, table
@@ -31,11 +31,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
 def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
     """Compute what is missing, write and print the study; status 1 if a point failed or did not settle."""
     _require_a_place(args)
-    try:
-        knobs = {"chunk_seconds": args.chunk_seconds, "shard": args.shard}
-        study = mdr.sweep(**vars(asked), store=args.store, **knobs)
-    except ValueError as fault:  # of shard and chunks; the file has been read
-        raise WrongInput(str(fault)) from None
+    with refusals():  # of shard and chunks; the file has been read
+        study = mdr.sweep(**vars(asked), store=args.store, chunk_seconds=args.chunk_seconds, shard=args.shard)
     if args.output is not None and study.complete:
         try:
             _write(args, study)

@@ -5,21 +5,20 @@ from __future__ import annotations
 import argparse
 
 import mdr
-from mdr.commands.arguments import velocity, whole_number
+from mdr.commands.arguments import add_velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked
-from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.half_space.run import CELLS, LEAST_CELLS, LEAST_STEPS, PERIODS, STEPS
+from mdr.commands.written import add_output, output_folder, write_found
+from mdr.half_space.friction import Settings
+from mdr.half_space.run import LEAST, PERIODS
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The velocity, how finely, and where to write."""
-    meaning = "pulling velocity: in m/s, with a unit or over v_c, as 1e-3, 1mm/s, 0.5v_c"
-    command.add_argument("--v-0", required=True, metavar="velocity", type=velocity, help=meaning)
-    command.usage = "%(prog)s case.toml --v-0 velocity [options]"
+    add_velocity(command)
     add_output(command, "half_space.csv", "half_space.png", "half_space.svg")
     for name, least, most, what in (
-        ("--cells", LEAST_CELLS, 1000, f"cells along each side of the grid (default: {CELLS})"),
-        ("--steps", LEAST_STEPS, 100_000, f"time steps of a period (default: {STEPS})"),
+        ("--cells", LEAST, 1000, f"cells along each side of the grid (default: {Settings.cells})"),
+        ("--steps", LEAST, 100_000, f"time steps of a period (default: {Settings.steps})"),
         ("--cycles", 1, 100_000, f"periods (default: until friction has settled, {PERIODS} at most)"),
     ):
         command.add_argument(name, metavar="n", type=whole_number(least, most), help=what)
@@ -40,8 +39,7 @@ def half_space(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     size = {"cells": args.cells, "steps_per_period": args.steps, "n_periods": args.cycles}
     found = mdr.half_space.slide(mdr.resolved(case), v_0, **size, coupled=not args.uncoupled)
     if folder is not None:
-        write_text(args, folder / "half_space.csv", found.table(), "", mdr.write_case(case))
-        write_figure(args, folder / "half_space", found.plot)
+        write_found(args, folder / "half_space", found, case)
     values = picked(
         found, "v_0", "mu_0", "cof", "cof_y", "cof_error", "grid_error", "step_error", "cycle_error", "settled", "kind",
         "why", "stick_share", "mean_F_x", "mean_F_y", "mean_F_z", "coupled", "cells", "steps_per_period", "n_periods",

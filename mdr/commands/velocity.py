@@ -8,13 +8,13 @@ from collections.abc import Callable
 from typing import Any
 
 import mdr
+from mdr.case.doubts import edge, frequencies
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import formula_of
 from mdr.closed_forms.laws.across import full_across
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
 from mdr.friction.shaken import HoldingBand, band_of_pull
 from mdr.friction.verdict import NEARLY
-from mdr.normal.doubts import edge, frequencies
 from mdr.normal.normal_force import mean_normal_force
 
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts

@@ -9,7 +9,9 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from mdr.case.contact import SlidingContact
 from mdr.commands.output import WrongInput, complain
+from mdr.files.case_files import write_case
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented, figure_metadata, versions
 
@@ -55,6 +57,12 @@ def made_by(args: argparse.Namespace) -> str:
 def write_text(args: argparse.Namespace, path: Path, text: str, *head: str) -> None:
     """Write a text with versions, command and `head` before it, each line behind a #."""
     write_whole(path, (commented(made_by(args), *head) + text).encode("utf-8"))
+
+
+def write_found(args: argparse.Namespace, stem: Path, found: Any, case: SlidingContact) -> None:
+    """Write the table of what was found, behind the case, as stem.csv, and its figure."""
+    write_text(args, stem.with_suffix(".csv"), found.table(), "", write_case(case))
+    write_figure(args, stem, found.plot)
 
 
 def write_figure(args: argparse.Namespace, stem: Path, draw: Callable[[], Any]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import panel as pn
 
 from mdr.case.contact import KINDS
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.explorer import look
 from mdr.explorer.controls import Control, control_of, controls_of
 from mdr.explorer.links import meaning_of, typed

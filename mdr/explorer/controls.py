@@ -14,11 +14,10 @@ import numpy as np
 
 from mdr.case.contact import KINDS, as_given
 from mdr.case.in_plane import MOST, PLACES
-from mdr.case.units import facts_at
-from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.explorer.state import DECADE, UP_TO, State, group_values, scales_of
+from mdr.case.paths import GROUPS, facts_at, fields_set
+from mdr.closed_forms.critical_velocity import UP_TO, velocity_scale
+from mdr.explorer.state import DECADE, State, group_values, scales_of
 from mdr.files.examples import PARTS
-from mdr.normal.vary import GROUPS
 from mdr.tools.checks import positive
 from mdr.tools.fields import Facts, Rule, facts_of
 
@@ -63,7 +62,7 @@ def controls_of(state: State) -> dict[str, list[Control]]:
     for slot in KINDS:
         part = getattr(case, slot)
         own = {f"{slot}.{one.name}": one for one in fields(part) if one.init} if is_dataclass(part) else {}
-        set_by = {GROUPS[path]: path for path in groups}
+        set_by = {fields_set(path)[0]: path for path in groups}
         found[slot] = [control_of(state, path) for at, path in set_by.items() if at.startswith(f"{slot}.")]
         found[slot] += [control_of(state, path, facts_of(one)) for path, one in own.items()
                         if path not in set_by and one.name not in HIDDEN]  # fmt: skip
@@ -85,7 +84,7 @@ def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float
         top = max(UP_TO * (velocity_scale(case) if path == "v_0" else 1.0), abs(value))
         return np.linspace(-top, top, STEPS + 1) if case.is_shaken else np.linspace(0, top, STEPS + 1)[1:]
     if path in GROUPS:  # as the field that it sets
-        rule = positive if path == "omega_0/omega" else facts_at(GROUPS[path]).rule
+        rule = positive if path == "omega_0/omega" else facts_at(fields_set(path)[0]).rule
     if path == "shake.omega" and case.oscillation.omega:
         ratios = {ratio for n in range(1, MOST + 1) for ratio in (n, 1 / n)}  # multiples and parts: of short periods
         return sorted({*(ratio * case.oscillation.omega for ratio in ratios), value})

@@ -14,7 +14,6 @@ from mdr.explorer.lines import line_of, suits
 from mdr.explorer.pictures import Picture
 from mdr.plots import COLOURS, prefix
 
-EMPTY = 0.1  #: of mu_0: least height of the curve's axis
 BEFORE = "#c3d9ea"
 
 
@@ -109,7 +108,7 @@ class Curve:
             mark.visible, mark.location = bool(np.isfinite(at)), float(at) if np.isfinite(at) else 0.0
         cof_y = None if picture.curve is None else picture.curve.cof_y
         drawn = [one for one in (picture.cof, picture.rigid, cof_y) if one is not None]
-        values = np.concatenate([*drawn, [(1 - EMPTY) * mu_0, mu_0]])
+        values = np.concatenate([*drawn, [0.9 * mu_0, mu_0]])  # the axis shows a tenth of mu_0 at least
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         room = 0.06 * (high - low)
         if not suits(self.levels, low - room, high + room):

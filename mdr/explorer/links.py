@@ -11,10 +11,10 @@ import numpy as np
 
 from mdr.case.contact import as_given
 from mdr.explorer.state import State
-from mdr.files.case_files import parse_case, write_case
+from mdr.files.case_files import write_case
+from mdr.given.case_file import parse_case
 from mdr.tools.notation import UNITS, numbers_in, shown
 
-LONGEST = 8000  #: characters of a link; a longer one is cut by some programs
 CALLS = ("curve = mdr.cof_curve(case, [v_0])", "run = mdr.slide(case, v_0, record=1)")  #: with which a script ends
 
 
@@ -28,7 +28,7 @@ def link_of(state: State) -> str:
         elif line:
             table = line.strip("[]") + "."
     link = urlencode({**values, "v_0": repr(state.v_0), **({"groups": "true"} if state.in_groups else {})})
-    return link if len(link) <= LONGEST else ""
+    return link if len(link) <= 8000 else ""  # some programs cut a longer one
 
 
 def state_of(query: Mapping[str, str]) -> State:

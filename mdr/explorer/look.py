@@ -81,9 +81,9 @@ def html(text: str = "", style: str = "") -> Any:
     return pn.pane.HTML(text, margin=(2, 5), **WIDE)
 
 
-def heading(text: str, style: str = "") -> Any:
+def heading(text: str) -> Any:
     """The heading of an area, or of a part of it."""
-    return html(text, HEADING + style)
+    return html(text, HEADING)
 
 
 def label(name: str, facts: Facts) -> str:

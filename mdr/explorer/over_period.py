@@ -18,7 +18,6 @@ from mdr.march.run import SlidingRun
 from mdr.plots import COLOURS, MODES, around, periods_of, prefix
 from mdr.plots.side_view import SideView
 
-SECONDS = 4.0  #: that one period lasts
 SHADES = [*(colour for _, colour in MODES), *(to_hex(around()((i + 0.5) / DIRECTIONS)) for i in range(DIRECTIONS))]
 #: draw the frame at the phase of the slider
 DRAW = """
@@ -92,7 +91,8 @@ class OverPeriod:
         )
         phase.js_on_change("value", draw)
         self.frames.js_on_change("data", draw)
-        play.js_on_change("active", CustomJS(args={"phase": phase, "wait": 1e3 * SECONDS / FRAMES}, code=PLAY))
+        # a period lasts four seconds
+        play.js_on_change("active", CustomJS(args={"phase": phase, "wait": 4e3 / FRAMES}, code=PLAY))
         return row(play, phase, sizing_mode="stretch_width")
 
     def show(self, run: SlidingRun) -> None:

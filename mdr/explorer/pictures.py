@@ -13,9 +13,9 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
+from mdr.closed_forms.critical_velocity import POINTS, UP_TO, critical_velocity, velocity_scale
 from mdr.closed_forms.full_slip import static_cof
-from mdr.explorer.state import DECADE, POINTS, UP_TO, State
+from mdr.explorer.state import DECADE, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
 from mdr.friction.verdict import verdict
@@ -31,7 +31,6 @@ from mdr.tools.progress import silent, time_limit
 
 RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
 WAITS = "…"  #: for a number that is being computed
-PATIENCE = 8.0  #: s of computing, after which a run that has not settled ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,10 +97,10 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
 
 
 def _in_time(better: Callable[[Picture], Picture], picture: Picture) -> Picture:
-    """What becomes of a picture within PATIENCE; once more where compiling was what took the time."""
+    """What becomes of a picture within eight seconds of computing; once more where compiling was what took the time."""
     for _ in range(2):
         before = TALLY.done
-        with time_limit(PATIENCE):
+        with time_limit(8.0):
             after = better(picture)
         if TALLY.done == before:
             break

@@ -13,17 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, as_given
-from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
+from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.paths import GROUPS, SET
+from mdr.closed_forms.critical_velocity import UP_TO, critical_velocity, velocity_scale
 from mdr.files.examples import PARTS, STILL
+from mdr.given.vary import case_at, value_at
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import GROUPS, case_at, fields_of, value_at
 from mdr.tools.checks import finite, positive
+from mdr.tools.fields import fields_of
 
-UP_TO = 1.3  #: of the velocity scale of a case, at which friction has become mu_0: end of a curve
-POINTS = 24  #: of a curve: its corner at v_c is seen to a twentieth
-SMALL = 0.1  #: of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
-NATURAL = 2.0  #: omega_0/omega of a new body: off resonance, which is at 1
 DECADE = 10.0  #: how far a slider goes to both sides of the first value, and a curve beyond the velocity scale
 
 
@@ -118,8 +116,7 @@ def _first(case: SlidingContact) -> float:
 
 def group_values(case: SlidingContact) -> dict[str, float]:
     """The groups that the case has and that can be set in it, with their values [-]."""
-    fields_at = {path: at.split(".") for path, at in GROUPS.items()}
-    own = [path for path, (slot, field) in fields_at.items() if field in fields_of(getattr(case, slot))]
+    own = [path for path in GROUPS if any(SET[path].field_of(slot, type(getattr(case, slot))) for slot in KINDS)]
     values = {path: value_at(case, path) for path in own}
     return {path: value for path, value in values.items() if np.isfinite(value)}
 
@@ -133,17 +130,19 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     depth, kappa = case.contact_depth, case.material.mindlin_ratio
     k_zc = float(case.indenter.stiffness(depth, case.material.E_star))
     load, k_x = float(case.indenter.force(depth, case.material.E_star)), k_zc / kappa
-    m = k_x / (NATURAL * case.omega) ** 2
+    small = 0.1  # of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
+    natural = 2.0 * case.omega  # of a new body: off resonance
+    m = k_x / natural**2
     sizes = {
         "u_z0": depth,
-        "du_z": SMALL * depth,
+        "du_z": small * depth,
         "F_z0": load,
-        "dF_z": SMALL * load,
-        "m_z": k_zc / (NATURAL * case.omega) ** 2,
-        "tau": SMALL / case.omega,
+        "dF_z": small * load,
+        "m_z": k_zc / natural**2,
+        "tau": small / case.omega,
         "k_x": k_x,
         "m": m,
-        "c_x": 2 * SMALL * float(np.sqrt(k_x * m)),
+        "c_x": 2 * small * float(np.sqrt(k_x * m)),
         "du_x": case.mu_0 * kappa * depth / 2,
         "du_y": case.mu_0 * kappa * depth / 2,
     }

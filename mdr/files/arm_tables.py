@@ -22,10 +22,11 @@ MODULI = (
     Column("E_j", ("E_i", "modulus"), "Pa", needed=False, bare=True),
     Column("G_j", ("G_i", "shear modulus"), "Pa", needed=False, bare=True),
 )
-BULK = Column(
-    "k_j", ("k_i", "k"), needed=False
-)  #: shares of a bulk modulus, as finite-element programs have them beside
-ARMS = (*MODULI, BULK, Column("tau_j", ("tau_i", "tau", "τ", "relaxation time"), "s", bare=True, empty=np.inf))
+ARMS = (
+    *MODULI,
+    Column("k_j", ("k_i", "k"), needed=False),  # shares of a bulk modulus, which finite-element programs have beside
+    Column("tau_j", ("tau_i", "tau", "τ", "relaxation time"), "s", bare=True, empty=np.inf),
+)
 
 
 def from_table(

@@ -29,8 +29,8 @@ load alone is a ConstantLoad, u_z0 alone a ConstantDepth.
 list of amplitudes is given, and else an InPlaneOscillation.
 A Prony material has arms = [[E_j, tau_j], ...]. With E_0, the instantaneous modulus, they are shares of it.
 
-In the place of a field a file may give what a rig is set to, `mdr.normal.rig.SETTINGS`: frequency [Hz], load [N],
-tan_delta, theta_deg. Beside a load, hold = "load" says that it is the mean over the period, hold = "depth" that it
+In the place of a field a file may give what a rig is set to (`mdr.case.paths`): frequency [Hz], load [N], tan_delta,
+theta_deg. Beside a load, hold = "load" says that it is the mean over the period, hold = "depth" that it
 rests at the mean depth. Files are written in the fields of the records.
 
 A file that is wrong is refused with every fault at once: what is missing, what is no key, each value that the rule of
@@ -44,121 +44,21 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from inspect import isabstract
-from os import PathLike, fsdecode
 from types import ModuleType
 from typing import Any, NamedTuple
 
 from mdr import indenters, materials
 from mdr.case import in_plane, motion, pull
 from mdr.case.contact import KINDS, SlidingContact, as_given
-from mdr.case.motion import LoadOscillation, NormalOscillation
+from mdr.case.motion import NormalOscillation
+from mdr.case.paths import HOLD, OPEN, SetPath, fields_set, hold_of, settings_of
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files import relative_moduli
 from mdr.files.own_records import own_records
-from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, toml_value, tried
-from mdr.normal.mean_load import hold_of, warn_of_mean_loads
-from mdr.normal.normal_force import mean_normal_force
-from mdr.normal.rig import OPEN, Setting, settings_of
-from mdr.normal.vary import HOLD, contact_of, fields_of, fields_set, load_asked
-from mdr.tools.fields import checked, example_of, required, units_of
+from mdr.files.toml_text import CaseFileError, told, toml_value, tried
+from mdr.tools.fields import checked, example_of, fields_of, required, units_of
 from mdr.tools.messages import nearest, offer, short
 from mdr.tools.notation import numbers_in
-from mdr.tools.warned import warn_outside
-
-# --- public ---
-
-
-def read_case(path: str | PathLike[str]) -> SlidingContact:
-    """The sliding contact that a TOML file describes, in SI.
-
-    Parameters
-    ----------
-    path : str or path-like
-        The case file.
-
-    Returns
-    -------
-    SlidingContact
-        The contact.
-
-    Raises
-    ------
-    CaseFileError
-        With every fault of the file, one a line.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> import mdr
-    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
-    >>> _ = Path("case.toml").write_text(mdr.write_case(case))
-    >>> mdr.read_case("case.toml") == case
-    True
-    """
-    return _as_written(read_said(path))
-
-
-class Said(NamedTuple):
-    """What a case file says."""
-
-    case: SlidingContact
-    held: dict[str, Any]  #: load [N], with hold, and tan_delta [-], for fields that other tables decide about too
-
-
-def read_said(path: str | PathLike[str]) -> Said:
-    """The sliding contact of a TOML file, and what holds whatever else varies. Raises CaseFileError."""
-    return _said(read_text(path), fsdecode(path))
-
-
-def parse_case(text: str, source: str = "<string>") -> SlidingContact:
-    """The sliding contact that a TOML text describes, in SI.
-
-    Parameters
-    ----------
-    text : str
-        The text of a case file.
-    source : str
-        What messages call the text.
-
-    Returns
-    -------
-    SlidingContact
-        The contact.
-
-    Raises
-    ------
-    CaseFileError
-        With every fault of the text, one a line.
-
-    Examples
-    --------
-    >>> import mdr
-    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
-    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.5)
-    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
-    >>> mdr.parse_case(mdr.write_case(case)) == case
-    True
-    """
-    if not isinstance(text, str):
-        raise TypeError(f"text must be a string of TOML, got {text!r}")
-    return _as_written(_said(text, source))
-
-
-def _as_written(said: Said) -> SlidingContact:
-    """The case that a file says; with a warning where its mean load is another than its load. Of what varies a case,
-    each answer is warned of, not the case that it begins with.
-    """
-    if (asked := load_asked(said.held, said.case)) is not None:
-        warn_of_mean_loads([(asked, mean_normal_force(said.case))])
-    return said.case
-
-
-def _said(text: str, source: str) -> Said:
-    content = parse_toml(text, source)
-    with told(f"{source}: "):
-        return case_of(content)
 
 
 def write_case(case: SlidingContact) -> str:
@@ -209,57 +109,38 @@ def written(case: SlidingContact, held: Mapping[str, Any]) -> str:
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
 
-def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
-    """What tables already parsed say; keys `beside` them are left alone. Raises CaseFileError with every fault."""
-    axes = content.get("axes")
+class Tables(NamedTuple):
+    """What the tables of a case file say, as far as they are sound; what is wrong with them is among the faults."""
+
+    parts: dict[str, Any]  #: a record each
+    above: dict[str, Any]  #: the fields of the contact as a whole
+    held: dict[str, Any]  #: load [N], with hold, and tan_delta [-], for fields that other tables decide about too
+    of_tables: dict[str, list[str]]  #: faults by table
+    faults: list[str]  #: names that are none, then those of tables
+    refused: list[str]  #: of the fields of the contact as a whole
+
+
+def read_tables(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Tables:
+    """What tables already parsed say; keys `beside` them are left alone. Raises CaseFileError for a study file."""
     content = {key: value for key, value in content.items() if key not in beside}
     if "axes" in content:
         raise CaseFileError(STUDY)
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in TOP]
-    parts, held, of_tables = _read_tables(content)
+    parts, held, of_tables = _read_parts(content)
     faults += [fault for found in of_tables.values() for fault in found]
     own = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
     read = {key: tried(_number_at, key, value, TOP[key]) for key, value in own.items()}
     given = {key: value for key, (value, unread) in read.items() if not unread}
     refused = [fault for _, unread in read.values() for fault in unread]
-    refused += _field_faults(SlidingContact, {**_HARMLESS, **given}, {}, read)
-    above = {"mu_0": 1.0} if refused else given  # whether the parts fit each other shows whatever mu_0 is
-    case, whole = (None, []) if faults else tried(contact_of, parts, {**above, **held})
-    if case is None or refused:
-        raise CaseFileError.of([*faults, *refused, *whole])
-    _ask_for_masses(case, content, axes if isinstance(axes, dict) else {})
-    return Said(case, held)
+    refused += _field_faults(SlidingContact, {**HARMLESS, **given}, {}, read)
+    return Tables(parts, given, held, of_tables, faults, refused)
 
 
-def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapping[str, Any]) -> None:
-    """Warn of a body, and of a load that may ride on it, whose mass neither the tables nor the axes of a study say."""
-    if "pull" in content and "m" not in content["pull"] and "pull.m" not in axes:
-        warn_outside(
-            "[pull] says no mass: give m in kg, or m = 0 for a body without inertia, which is what is computed"
-        )
-    m = case.pull.coefficients[0]
-    silent = "m_z" not in content["oscillation"] and "oscillation.m_z" not in axes
-    if m > 0 and isinstance(case.oscillation, LoadOscillation) and silent:
-        warn_outside(
-            f"the body has the mass m = {m:.6g} kg along the pull, and [oscillation] does not say which mass the load "
-            f"moves: m_z = {m:.6g} if it presses on the body itself, which may change v_c several times, or m_z = 0"
-        )
-
-
-def stand_in(content: Mapping[str, Any]) -> tuple[SlidingContact | None, set[str]]:
-    """A case of the tables that are sound, harmless ones for the others, and the names of those others.
-
-    To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
-    """
-    parts, held, faults = _read_tables(content)
-    return tried(contact_of, {**_HARMLESS, **parts}, {"mu_0": 1.0, **held})[0], set(faults)
-
-
-def _read_tables(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], dict[str, list[str]]]:
+def _read_parts(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], dict[str, list[str]]]:
     """The parts that sound tables describe, what is held for their fields, and the faults of the other tables."""
     tables = {**_meant(content), **content}
     tables |= {"oscillation": _still(tables["oscillation"])} if {"shake", "oscillation"} <= set(tables) else {}
-    asked = [name for name in _TABLES if name in tables or name in _HARMLESS]
+    asked = [name for name in _TABLES if name in tables or name in HARMLESS]
     read = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
     sound = {name: found for name, (found, faults) in read.items() if not faults}
     parts = {name: part for name, (part, _) in sound.items()}
@@ -397,14 +278,16 @@ class _Table:
         if record is SpringPull:
             return {"k_x": "leave [pull] out for a rigid pull"}
         settings = settings_of(self.name)
-        return {one.field_of(self.name, record): f"or give {alias} [{one.unit}]" for alias, one in settings.items()}
+        return {
+            one.field_of(self.name, record): f"or give {alias} [{one.facts.unit}]" for alias, one in settings.items()
+        }
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""
         known, whose = self.keys(record), f"{_bare(key)} is no key of {record.__name__}"
         settings = settings_of(self.name)
         if key in settings:
-            return f"{whose}; it stands for {' or '.join(settings[key].paths)} of other records"
+            return f"{whose}; it stands for {' or '.join(settings[key].fields)} of other records"
         aliases = [alias for alias, one in settings.items() if one.field_of(self.name, record)]
         aliases += [HOLD] if self.name == "oscillation" else []
         if key.casefold() in FREQUENCY and "frequency" in aliases:
@@ -430,7 +313,7 @@ _TABLES = {
 #: what [oscillation] is beside a [shake] if it says no more than this
 _ALONE = {"ConstantLoad": {"load", "F_z0"}, "ConstantDepth": {"u_z0"}}
 #: a sound record for each part that a case cannot do without
-_HARMLESS = {
+HARMLESS = {
     "indenter": example_of(indenters.Paraboloid),
     "material": example_of(materials.Elastic),
     "oscillation": example_of(NormalOscillation),
@@ -477,11 +360,11 @@ def _hold_beside(value: Any, table: Mapping[str, Any], record: type[Any]) -> str
     return hold
 
 
-def _number_at(key: str, value: Any, of: Setting | str) -> Any:
+def _number_at(key: str, value: Any, of: SetPath | str) -> Any:
     """What a key says: quantities as numbers, of a field with this unit, or of what a setting stands for."""
     if isinstance(of, str):
         return numbers_in(key, value, of)
-    return of.convert(numbers_in(key, value, of.unit))
+    return of.told(key, numbers_in(key, value, of.facts.unit))
 
 
 def _field_faults(

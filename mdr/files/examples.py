@@ -21,7 +21,6 @@ from mdr.files.toml_text import toml_value
 from mdr.tools.fields import example_of, facts_of, has_example
 from mdr.tools.messages import offer, short
 
-WIDEST = 44  # characters of a line before its comment
 TITLES = {
     "indenter": "the shape that is pressed in; its fields follow",
     "material": "the half-space",
@@ -93,7 +92,7 @@ def _commented(case: SlidingContact, block: str) -> str:
             line = f"{key} = {_written(getattr(record, key))}"
             unit, meaning, *_ = facts_of(known[key])
             comment = f"[{unit}] {meaning}" if unit else meaning
-        lines[i] = f"{line:<{WIDEST}}# {comment}" if comment else line
+        lines[i] = f"{line:<44}# {comment}" if comment else line
     return "\n".join(lines)
 
 

@@ -28,8 +28,6 @@ Words = Mapping[str, str] | None
 
 LIKELY_MODULUS = (200.0, 2e12)  #: [Pa], from soft gels to beyond diamond
 FASTEST = (0.0, 1e7)  #: acceleration [m/s²], of 100 µm at 50 kHz
-GRAVITY_OFF = 0.02  #: relative error of a mean that is gravity
-SLOWEST = 0.5  #: step [s] from which on a record of acceleration shows no vibration
 WITHIN = 0.5  #: [K], that readings at one temperature may be off it
 PROFILE = (
     Column("r", ("x", "radius", "position", "distance"), "m", likely=(1e-10, 1.0)),
@@ -257,10 +255,11 @@ def _doubt_units(record: Mapping[str, Array]) -> None:
     with np.errstate(over="ignore"):
         mean = math.hypot(*(float(np.mean(record[name])) for name in ("a_x", "a_y", "a_z") if name in record))
     for scale, meant in ((1 / GRAVITY, "g and not m/s²"), (GRAVITY, "m/s² and not g"), (1e3, "mg and not g")):
-        if abs(mean / (scale * GRAVITY) - 1) < GRAVITY_OFF:
+        if abs(mean / (scale * GRAVITY) - 1) < 0.02:  # a mean that is gravity
             warn_outside(f"the mean acceleration is {mean:.4g} m/s², and gravity {GRAVITY:.4g}: is it in {meant}?")
     t = record["t"]
-    if mean and t.size > 2 and float(np.median(np.abs(np.diff(t)))) >= SLOWEST:
+    # samples half a second apart show no vibration
+    if mean and t.size > 2 and float(np.median(np.abs(np.diff(t)))) >= 0.5:
         step = float(np.median(np.diff(t)))
         warn_outside(f"accelerations at steps of {step:.4g} s: is the time in ms, or the number of the sample?")
 
@@ -295,10 +294,6 @@ def profile_points(
     return r, f
 
 
-BASELINE = 0.01  #: mean force before the touch, over the greatest, that noise may leave
-FARTHEST_ORIGIN = 3.0  #: first depth over the widest step, to which the point (0, 0) is added
-
-
 def force_points(path: str | PathLike[str], units: Words, columns: Words, touch: float | None) -> tuple[Array, Array]:
     """Depths [m] from the first touch, and forces [N] at them, both from 0."""
     table = read_table(path, FORCE, units, columns)
@@ -312,14 +307,15 @@ def force_points(path: str | PathLike[str], units: Words, columns: Words, touch:
         raise fault(where, f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give the loading alone, sorted")
     if touch is not None:
         base = float(F[d < touch].mean()) if np.any(d < touch) else 0.0
-        if abs(base) > BASELINE * float(F.max()):
+        if abs(base) > 0.01 * float(F.max()):  # noise leaves less
             raise table.fault(
                 f"F is {base:.4g} N before the touch, not 0: take this baseline off the forces of the file"
             )
         d, F = d[d >= touch] - touch, F[d >= touch]
     if d.size and d[0] < 0:
         raise table.fault(f"d = {d[0]:.6g} m is above the surface; give the depth of the first touch as touch=")
-    if d.size > 1 and d[0] > FARTHEST_ORIGIN * float(np.diff(d).max()):
+    # the point (0, 0) is added to a depth that is at most three of the widest steps away
+    if d.size > 1 and d[0] > 3.0 * float(np.diff(d).max()):
         raise table.fault(f"the first d is {d[0]:.6g} m, far from 0; give the depth of the first touch as touch=")
     if d.size and d[0] > 0:
         d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)

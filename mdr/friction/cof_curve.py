@@ -25,7 +25,7 @@ from mdr.march.slide import SLOWEST, cofs_without_bound, slides
 from mdr.march.theorems import disordered
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, Array
-from mdr.tools.checks import count, finite_array
+from mdr.tools.checks import count, row
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.messages import MOST_TOLD
@@ -33,9 +33,6 @@ from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
-FOLLOWED_ERROR = 5e-6  #: of the static limit over mu_0, of a force that is followed spring by spring
-SLOW = (1e-5, 1e-4)  #: of the velocity scale of a case, velocities that tell the limit at rest
-SLOW_ACROSS = (1e-3, 1e-2)  #: the same of one that is shaken across, which comes to rest by ever smaller slips
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
 
@@ -166,14 +163,10 @@ def cof_curve(
     array([0.319, 0.364, 0.398, 0.4  ])
     """
     case, accuracy = resolved(case), accuracy_of(accuracy)
-    for name, knob in (("n_springs", n_springs), ("steps_per_period", steps_per_period)):
-        if knob is not None:
-            count(name, knob, LEAST_KNOB)
+    require_knobs(n_springs=n_springs, steps_per_period=steps_per_period)
     if method not in (None, "march"):
         raise ValueError(f'method must be None or "march", got {method!r}')
-    velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)  # a copy: the record keeps it
-    if velocities.ndim != 1 or velocities.size == 0:
-        raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
+    velocities = row("v_0", v_0, "m/s", "velocities")
     if case.shake is None and np.any(velocities < 0):
         raise ValueError(
             f"v_0 must not be negative, got {float(velocities.min())!r} m/s: friction is the same both ways where "
@@ -211,6 +204,13 @@ def cof_curve(
         static_cof_back=back,
         cof_y=cof_y[:n] if case.moves_across else None,
     )
+
+
+def require_knobs(**knobs: int | None) -> None:
+    """Refuse fewer springs or steps than a run and its companions can do with; None is chosen."""
+    for name, knob in knobs.items():
+        if knob is not None:
+            count(name, knob, LEAST_KNOB)
 
 
 def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> tuple[float, float, str]:
@@ -283,12 +283,14 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     if case.moves_across:
         if is_across_alone(case):
             return static_cof(case), EXACT * case.mu_0, True, 1.0, "", 0.0
-        return _slow_limit(friction(case, np.array(SLOW_ACROSS) * case.pace))
+        # shaken across, a contact comes to rest by ever smaller slips: less slow
+        return _slow_limit(friction(case, np.array([1e-3, 1e-2]) * case.pace))
     if not case.is_shaken:
-        error = FOLLOWED_ERROR if case.material.contact_arms else EXACT
+        # arms are followed spring by spring, to this share of mu_0
+        error = 5e-6 if case.material.contact_arms else EXACT
         return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, "", 0.0
     if case.material.contact_arms or case.pull.coefficients[0] > 0:
-        return _slow_limit(friction(case, np.array(SLOW) * case.pace))
+        return _slow_limit(friction(case, np.array([1e-5, 1e-4]) * case.pace))
     cof, error, settled, sticks, why, _ = (column[0] for column in friction(case, np.zeros(1)))
     return cof, error, settled, sticks, "" if settled else why, 0.0  # a start at one end of the band ends there
 
@@ -303,7 +305,7 @@ def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
 
 
 def _slow_limit(runs: Columns) -> Point:
-    """The limit of runs at velocities SLOW, ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
+    """The limit of two slow runs, velocities ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
     (slower, faster), (slow_y, fast_y) = runs.cof, runs.cof_y
     apart, aside = faster - slower, fast_y - slow_y
     bound = runs.error[0] + (runs.error[0] + runs.error[1]) / 6 + 0.15 * max(abs(apart), abs(aside))

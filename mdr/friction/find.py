@@ -18,30 +18,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.given.mean_load import warn_of_mean_loads
+from mdr.given.vary import load_asked, still_held
 from mdr.march.march import BUDGET, LEAST_ACCURATE
-from mdr.normal.mean_load import warn_of_mean_loads
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import load_asked, still_held
 from mdr.tools.arrays import EXACT
-from mdr.tools.checks import finite, positive
+from mdr.tools.checks import ends, finite, positive
 from mdr.tools.keywords import offering
-from mdr.tools.messages import short
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ticker
 from mdr.tools.summary import Printed
-
-N_SCAN = 33  #: values of a range that are looked at first
-DECADE = 10.0  #: to both sides of the value in the case, where no range is given
-LOG_FROM = 4.0  #: ratio of the ends of a range from which on its values grow by a constant factor
-CLOSE = 1e-3  #: of what is asked, within which a root is none that is only jumped over
-REACHED = 1e-2  #: of the bound on the error of an accurate run, by which it may miss what is asked
-UNSURE = 3.0  #: bounds on the error, within which the nearest point of coarse runs may hide a pair of roots
-TRIES = 20  #: to find the nearest point between three values
 
 
 @dataclass(frozen=True)
@@ -179,14 +170,9 @@ def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, Any]
     if within is None:
         if start == 0:
             raise ValueError(f"{path} is zero in this case: give the range to search as within=(low, high)")
-        low, high = (allowed(case, path, start, end, held) for end in sorted((start / DECADE, start * DECADE)))
+        low, high = (allowed(case, path, start, end, held) for end in sorted((start / 10, start * 10)))
         return low, high
-    if not isinstance(within, tuple | list) or len(within) != 2:
-        raise TypeError(f"within must be a pair (low, high), got {short(repr(within))}")
-    low, high = (finite("within", end) for end in within)
-    if not low < high:
-        raise ValueError(f"within must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
-    return low, high
+    return ends("within", within)
 
 
 class _Search:
@@ -200,7 +186,8 @@ class _Search:
 
     def value(self, x: float) -> float:
         """The value at a coordinate."""
-        if 0 < LOG_FROM * self.low < self.high:
+        # of a wide range values grow by a constant factor
+        if 0 < 4.0 * self.low < self.high:
             return float(self.low * (self.high / self.low) ** x)
         return self.low + (self.high - self.low) * x
 
@@ -217,13 +204,14 @@ class _Search:
         miss = self.wish.miss(found)
         if accuracy > BUDGET and abs(miss) <= error:
             return self.miss(x, BUDGET)
-        return 0.0 if abs(miss) <= REACHED * error else miss
+        # reached: the miss is small against the error of an accurate run
+        return 0.0 if abs(miss) <= 1e-2 * error else miss
 
     def values(self) -> list[float]:
         """The value at each root, rising."""
         from scipy.optimize import brentq
 
-        known = {x: self.miss(x) for x in np.linspace(0, 1, N_SCAN).tolist()}
+        known = {x: self.miss(x) for x in np.linspace(0, 1, 33).tolist()}  # a first look
         if self.is_flat:
             return []
         known |= {x: self.miss(x) for x in list(self._turns(known))}
@@ -233,7 +221,8 @@ class _Search:
             if known[one] * known[two] < 0:
                 with suppress(ValueError):  # a case on the way that cannot be
                     x = float(brentq(self.miss, one, two, xtol=EXACT))
-                    roots += [x] if abs(self.miss(x, BUDGET)) < CLOSE else []
+                    # else what is asked is only jumped over
+                    roots += [x] if abs(self.miss(x, BUDGET)) < 1e-3 else []
         return [self.value(x) for x in sorted(roots)]
 
     def _turns(self, known: dict[float, float]) -> Iterator[float]:
@@ -245,7 +234,8 @@ class _Search:
             if 0 < here <= min(before, behind) and here < max(before, behind):
                 x = self._nearest(side, one, two, LEAST_ACCURATE)
                 found, error, _ = self.found.get(x, (np.nan, 0.0, 0.0))
-                if abs(self.wish.miss(found)) <= UNSURE * error:
+                # within a few bounds on the error the nearest point of coarse runs may hide a pair of roots
+                if abs(self.wish.miss(found)) <= 3.0 * error:
                     x = self._nearest(side, one, two, BUDGET)
                 yield x
 
@@ -253,8 +243,8 @@ class _Search:
         """The coordinate between two where the wish is missed least."""
         from scipy.optimize import minimize_scalar
 
-        ends, limit = (one, two), {"maxiter": TRIES}
-        return float(minimize_scalar(lambda at: side * self.miss(at, accuracy), bounds=ends, options=limit).x)
+        limit = {"maxiter": 20}  # enough for the nearest point between three values
+        return float(minimize_scalar(lambda at: side * self.miss(at, accuracy), bounds=(one, two), options=limit).x)
 
     @property
     def is_flat(self) -> bool:

@@ -20,11 +20,9 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
+from mdr.given.vary import still_held, warn_of_load
 from mdr.march.refinement import default_springs, default_steps
-from mdr.normal.mean_load import warn_of_mean_loads
-from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import load_asked, still_held
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.keywords import offering
 from mdr.tools.messages import short
@@ -32,9 +30,6 @@ from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
 
-STEP = 1e-3  #: on the scale of the search, for derivatives: well above the noise of a run, well below any curvature
-VAGUE = 1.0  #: half width of an interval of a logarithm, from which on the parameter is poorly determined
-ALIKE = 0.99  #: correlation from which on two parameters are hardly told apart
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
 
@@ -176,8 +171,7 @@ def fit(
     idle = np.linalg.norm(found.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
     x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
     fitted = _with_intervals(model, x, found.jac, found.fun, confidence)
-    if (asked := load_asked({**model.held, **model.values(x)}, fitted.case)) is not None:
-        warn_of_mean_loads([(asked, mean_normal_force(fitted.case))], "at the best fit ")
+    warn_of_load({**model.held, **model.values(x)}, fitted.case, "at the best fit ")
     return fitted
 
 
@@ -246,11 +240,11 @@ class _Model:
         return self._at(tuple(x.tolist()))
 
     def slopes(self, x: Array) -> Array:
-        """Derivatives (n, k), by a step into the range."""
-        columns = []
+        """Derivatives (n, k), by a step into the range: well above the noise of a run, well below any curvature."""
+        columns, most = [], 1e-3
         for i, one in enumerate(self.free):
             low, high = one.ends
-            step = min(STEP, (high - low) / 4) * (1 if x[i] + STEP < high else -1)
+            step = min(most, (high - low) / 4) * (1 if x[i] + most < high else -1)
             moved = x + step * (np.arange(x.size) == i)
             columns.append((self._deviations(tuple(moved.tolist())) - self.left(x)) / step)
         return np.transpose(columns)
@@ -303,7 +297,8 @@ def _vague(free: tuple[Parameter, ...], x: Array, half: Array) -> list[str]:
         if not 2 * wide <= one.widest:
             limit = "its bounds" if one.unit or one.widest < np.log(10) * DECADES else f"{DECADES:.0f} decades"
             told.append(f"{one.name}: not determined by these data; its interval is wider than {limit}")
-        elif not one.unit and wide > VAGUE:
+        # known to no more than a factor of e: poorly determined
+        elif not one.unit and wide > 1.0:
             told.append(f"{one.name}: poorly determined; its interval spans a factor of {np.exp(2 * wide):.2g}")
         low, high = one.ends
         if min(at - low, high - at) < NEAR_END * (high - low):
@@ -315,7 +310,7 @@ def _alike(names: list[str], correlation: Array) -> list[str]:
     return [
         f"{one} and {two}: the data hardly tell them apart (correlation {correlation[i, j]:.3f})"
         for (j, two), (i, one) in combinations(enumerate(names), 2)
-        if abs(correlation[i, j]) > ALIKE
+        if abs(correlation[i, j]) > 0.99  # hardly told apart
     ]
 
 

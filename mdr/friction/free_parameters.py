@@ -14,17 +14,17 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
-from mdr.case.units import facts_at
+from mdr.case.paths import GROUPS, HOLD, RIG, facts_at
+from mdr.given.vary import case_at, value_at
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import at_rest, resolved
-from mdr.normal.vary import GROUPS, HOLD, RIG, case_at, fields_of, value_at
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import finite
+from mdr.tools.checks import ends
+from mdr.tools.fields import fields_of
 from mdr.tools.messages import offer, short
 
 NONE: Mapping[str, Any] = {}  #: is held
 DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
-UNITS_AWAY = 10.0  #: of the search to either side, on a linear scale
 NEAR_END = 1e-3  #: of the range: a best fit nearer to an end is at it, and no search begins nearer
 
 
@@ -48,13 +48,14 @@ class Parameter:
             raise ValueError(f"{name} cannot be varied: {why}")
         unit = natural_unit(case, path)
         signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit, held)
-        ends = None if given is None else _bounds(case, name, path, start, given, held)
-        if signed or start == 0 or path == "mindlin_ratio" or (ends and ends[0] <= 0):
-            away = unit * (np.pi if facts_at(path).unit == "rad" else UNITS_AWAY)
+        bounds = None if given is None else _bounds(case, name, path, start, given, held)
+        if signed or start == 0 or path == "mindlin_ratio" or (bounds and bounds[0] <= 0):
+            # ten units to either side, of an angle half a turn
+            away = unit * (np.pi if facts_at(path).unit == "rad" else 10.0)
             reach = start - away, start + away
         else:
             unit, reach = 0.0, (start / 10**DECADES, start * 10**DECADES)
-        low, high = ends or (allowed(case, path, start, end, held) for end in reach)
+        low, high = bounds or (allowed(case, path, start, end, held) for end in reach)
         return cls(name, path, start, low, high, unit)
 
     def coordinate(self, value: float) -> float:
@@ -169,11 +170,7 @@ def _bounds(
     case: SlidingContact, name: str, path: str, start: float, given: Any, held: Mapping[str, Any]
 ) -> tuple[float, float]:
     """The ends of the search that were given."""
-    if not isinstance(given, tuple | list) or len(given) != 2:
-        raise TypeError(f"bounds of {name} must be a pair (low, high), got {short(repr(given))}")
-    low, high = (finite(f"bounds of {name}", one) for one in given)
-    if not low < high:
-        raise ValueError(f"bounds of {name} must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
+    low, high = ends(f"bounds of {name}", given)
     for end in (low, high):
         if why := _refusal(case, path, end, held):
             raise ValueError(f"bounds of {name}: {end:.6g} is no value of it: {why}")

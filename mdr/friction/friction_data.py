@@ -17,8 +17,8 @@ from os import PathLike
 
 import numpy as np
 
+from mdr.case.doubts import GREATEST_MU_0
 from mdr.files.measurements import read_table
-from mdr.normal.doubts import GREATEST_MU_0
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_header import Column

@@ -34,17 +34,10 @@ from mdr.march.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, defa
 from mdr.march.run import SlidingRun
 from mdr.march.slide import slide, slide_without_bound
 from mdr.normal.resolved import resolved
-from mdr.tools.checks import positive
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
 
-NARROWEST = 2e-6  #: half width of a bracket, of v_c, within which stick is told from none
-GRAZE = 1e-4  #: stick share of springs that hesitate for one step at their touch; 2e-5 below v_c it is above 1e-3
-SAME_MULTIPLE = 1e-6  #: turns by which a free oscillation that stays in step loses or gains on the drive in a period
-ABOVE = (1.02, 1.3, 4.0)  #: multiples of v_c that are looked at for friction reduction beyond it
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
-FAR = (1e6, 1e4, 1e3)  #: times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
-MANY = 4  #: times the first steps, from which on a run from full slip begins in the state of one of so few
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
 #: why a contact that is shaken across has no critical velocity
@@ -155,11 +148,12 @@ def measure_critical_velocity(
     """
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    half_width = max(2 * accuracy_of(accuracy), NARROWEST)  # accuracy is a quarter of the width
+    # stick is told from none within 2e-6 of v_c
+    half_width = max(2 * accuracy_of(accuracy), 2e-6)  # accuracy is a quarter of the width
     search = _Search(resolved(case).pulled(direction), start, half_width)
     if search.case.moves_across:
         return MeasuredVelocity(None, None, None, "none", ACROSS)
-    with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
+    with time_limit(limit_s):
         try:
             return search.measure()
         except _Undecided as at:
@@ -191,7 +185,8 @@ class _Search:
         """A run that tells whether springs stick; the bound on its error is worked out only where that decides."""
         self._begin(v_0)
         start = start or self.start
-        if start == "full_slip" and self.near is None and self.steps >= MANY * self.few:
+        # with many steps a run from full slip begins in the state of one of few
+        if start == "full_slip" and self.near is None and self.steps >= 4 * self.few:
             self._without_bound(v_0, start, self.few)
         run = self._without_bound(v_0, start, self.steps)
         return self.run(v_0, start) if run.settled and _slips(run) and _is_reduced(run) else run
@@ -252,7 +247,8 @@ class _Search:
             )
         ratio = pull.omega_0 / case.omega
         multiple = round(ratio) if np.isfinite(ratio) else 0
-        if multiple and pull.damping_ratio == 0 and abs(ratio - multiple) < SAME_MULTIPLE:
+        # a free oscillation that loses or gains less than 1e-6 turns in a period stays in step
+        if multiple and pull.damping_ratio == 0 and abs(ratio - multiple) < 1e-6:
             return (
                 f"the undamped body has omega_0 = {multiple} omega: a free oscillation in step with the drive "
                 "may keep springs from sticking, so that the end of stick depends on it (mdr.laws.lock_in): give the "
@@ -274,7 +270,8 @@ class _Search:
         stick begins. The factors of velocity are chosen such that they do not hit v_c by construction.
         """
         guess, unsettled = self.scale, None
-        for times in FAR:
+        # times Eq. (1): runs so fast are free of stick wherever there is a v_c that can be told
+        for times in (1e6, 1e4, 1e3):
             far = self.quick_run(times * self.scale, "full_slip")  # from rest it would swing as fast
             if far.settled:
                 guess = far.v_0 - far.least_slip if _is_free(far) else guess
@@ -343,8 +340,9 @@ class _Search:
 
     def _look_above(self, v_c: float, low: float, high: float) -> MeasuredVelocity:
         """Runs above v_c from both starts: is friction full there?"""
+        factors = (1.02, 1.3, 4.0)
         unsettled, self.steps, self.n_springs = [], default_steps(self.case), default_springs(self.case)
-        for factor, start in product(ABOVE, ("full_slip", "rest")):
+        for factor, start in product(factors, ("full_slip", "rest")):
             run = self.quick_run(factor * v_c, start)
             if not run.settled:
                 unsettled.append(f"{factor:g} v_c from {start}")
@@ -352,7 +350,7 @@ class _Search:
                 why = f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {run.v_0:.6g} m/s"
                 return self._without("unsettled", f"{why}: no two steady motions do that, so one has not settled")
         why = "stick ends and the COF reaches mu_0 at the same velocity"
-        if len(unsettled) == 2 * len(ABOVE):
+        if len(unsettled) == 2 * len(factors):
             why = "stick ends at this velocity"
         if unsettled:
             why += f"; not settled: {', '.join(unsettled)}"
@@ -361,7 +359,8 @@ class _Search:
 
 def _slips(run: SlidingRun) -> bool:
     """True if no spring sticks for longer than it hesitates at its touch."""
-    return run.stick_share < GRAZE and run.least_slip > 0
+    # springs hesitate for one step at their touch; 2e-5 below v_c the share is above 1e-3
+    return run.stick_share < 1e-4 and run.least_slip > 0
 
 
 def _is_free(run: SlidingRun) -> bool:

@@ -24,8 +24,6 @@ from mdr.tools.arrays import EXACT, SAME, beyond
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
-SLOW = 1e-3  #: of the velocity scale of a case: where the velocity of a contact that drives is looked for first
-
 
 @dataclass(frozen=True)
 class HoldingBand:
@@ -187,7 +185,8 @@ def _free(case: SlidingContact) -> float:
         raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
     if is_across_alone(case):
         return 0.0  # both ways are alike
-    low = SLOW * case.pace
+    # where the velocity of a contact that drives is looked for first
+    low = 1e-3 * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
     if side == 0:  # zero load lies between the two: is it held?
         band = band_of_pull(case)

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.indenters.base import rim_pressure
+from mdr.indenters.mapped import rim_pressure
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.stable_functions import arcosh, leg
 from mdr.march.run import SlidingRun
@@ -34,9 +34,6 @@ from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
-
-N_BETWEEN = 6  #: knots for each spring of an indentation
-N_KNOTS = 2048  #: of the displacement of a partial slip
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -167,7 +164,7 @@ def _of_indentation(source: Indentation, r: ArrayLike | None, i: int) -> Surface
     a, F_z = float(source.contact_radius[i]), float(source.F_z[i])
     own = np.concatenate([[0.0], source.x]) if source.x[0] > 0 else source.x
     r = _distances(r, a or float(own[-1]))
-    share = np.arange(N_BETWEEN) / N_BETWEEN
+    share = np.arange(6) / 6  # knots for each spring
     x = np.append((own[:-1, None] + np.diff(own)[:, None] * share).ravel(), own[-1])
     x = np.union1d(x, [a]) if a < x[-1] else x
     g, g_own = (np.asarray(source.indenter.profile_1d(at)) for at in (x, source.x))
@@ -198,7 +195,8 @@ def _of_partial_slip(source: PartialSlip, r: ArrayLike | None, i: int) -> Surfac
     stuck = np.asarray(shape.pressure(r, d_c, source.material.E_star)) if d_c > 0 else 0 * p
     stuck = np.minimum(stuck, p)  # at a rim, which either radius may miss by a rounding, p is 0 or huge
     x = np.unique(
-        np.concatenate([a * np.sin(np.linspace(0, np.pi / 2, N_KNOTS)), [c], [k for k in shape.kinks if k < a]])
+        # knots of the displacement
+        np.concatenate([a * np.sin(np.linspace(0, np.pi / 2, 2048)), [c], [k for k in shape.kinks if k < a]])
     )
     w_z = d - np.asarray(shape.profile_1d(x))
     u_z = np.where(r <= a, d - np.asarray(shape.profile_3d(np.minimum(r, a))), from_displacement(x, w_z, r))

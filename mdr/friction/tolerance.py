@@ -11,16 +11,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from mdr.case.contact import KINDS, SlidingContact, as_given
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at, fields_set
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
-from mdr.normal.mean_load import warn_of_mean_loads
+from mdr.given.mean_load import warn_of_mean_loads
+from mdr.given.vary import load_asked, still_held, value_at
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import fields_of, fields_set, load_asked, still_held, value_at
 from mdr.tools.checks import between, finite
 from mdr.tools.csv_table import Tabled, csv_text
+from mdr.tools.fields import fields_of
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import progress

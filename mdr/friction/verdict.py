@@ -25,7 +25,7 @@ from mdr.march.march import BUDGET
 from mdr.march.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import between, positive
+from mdr.tools.checks import between
 from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed, with_error
@@ -176,7 +176,7 @@ def verdict(
     (True, True, 'Eq. (1)')
     """
     case, within = resolved(case), _tolerance(within)  # before the runs, not after them
-    with time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds")):
+    with time_limit(limit_s):
         space = _in_three_dimensions(case, accuracy) if three_dimensions else ""
         forward = replace(_judged(case, within, limit_s, accuracy), three_dimensions=space)
         if not case.is_shaken:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -18,17 +19,15 @@ from mdr.indenters.paraboloid import Paraboloid
 from mdr.march.slide import slide
 from mdr.materials import Elastic, KelvinVoigt, Material, Prony
 from mdr.normal.indentation import indent
+from mdr.tools.fields import example_of
 from mdr.tools.jit import unsaid
 from mdr.tools.progress import progress, silent
 
-MATERIALS = (
-    KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-    Elastic(E=3e6, nu=0.5),
-    Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
-)
-PULLS = (RigidPull(), SpringPull(k_x=2e4, m=0.1, c_x=4.0), SpringPull(k_x=2e4, m=0.0, c_x=4.0))
-BALL, MOTION, MU_0 = Paraboloid(R=5e-3), NormalOscillation(u_z0=20e-6, du_z=4e-6, omega=314.0), 0.5
-ACROSS = InPlaneOscillation(omega=314.0, du_x=1e-6, du_y=1e-6)
+MATERIALS: tuple[Material, ...] = (example_of(KelvinVoigt), example_of(Elastic), example_of(Prony))
+BODY, MOTION, ALONG = example_of(SpringPull), example_of(NormalOscillation), example_of(InPlaneOscillation)
+ACROSS = replace(ALONG, du_y=ALONG.du_x)
+PULLS = (RigidPull(), BODY, replace(BODY, m=0.0))
+CASE = SlidingContact(example_of(Paraboloid), MATERIALS[0], 0.5, MOTION)
 
 
 def compile_all() -> int:
@@ -52,33 +51,31 @@ def kinds_of_run() -> list[Callable[[], object]]:
 
 
 def _slide(material: Material, pull: Pull) -> None:
-    case = SlidingContact(BALL, material, MU_0, MOTION, pull)
+    case = replace(CASE, material=material, pull=pull)
     v_0 = 0.5 * full_slip_critical_velocity(case)
     slide(case, v_0, accuracy=1e-3, record=1)
     slide(case, v_0, n_springs=32, steps_per_period=32, n_periods=16, start="rest")
 
 
 def _shaken(material: Material) -> None:
-    slide(SlidingContact(BALL, material, MU_0, MOTION, RigidPull(), ACROSS), 1e-3, n_springs=32, steps_per_period=32)
+    slide(replace(CASE, material=material, shake=ACROSS), 1e-3, n_springs=32, steps_per_period=32)
 
 
 def _shaken_body(material: Material) -> None:
-    case = SlidingContact(BALL, material, MU_0, MOTION, PULLS[1], ACROSS)
-    slide(case, 1e-3, accuracy=1e-3)
+    slide(replace(CASE, material=material, pull=BODY, shake=ACROSS), 1e-3, accuracy=1e-3)
 
 
 def _shaken_along(material: Material) -> None:
-    case = SlidingContact(BALL, material, MU_0, MOTION, RigidPull(), InPlaneOscillation(omega=314.0, du_x=1e-6))
-    cof_curve(case, [1e-3], accuracy=1e-3)
+    cof_curve(replace(CASE, material=material, shake=ALONG), [1e-3], accuracy=1e-3)
 
 
 def _indent(material: Material) -> None:
-    indent(BALL, material, [0.0, 1.0], F_z=[0.0, 1.0], n_springs=32)
+    indent(CASE.indenter, material, [0.0, 1.0], F_z=[0.0, 1.0], n_springs=32)
 
 
 def _record(material: Material) -> None:
-    element = ContactElement(BALL, material, MU_0, u_z_max=20e-6)
+    element = ContactElement(CASE.indenter, material, CASE.mu_0, u_z_max=20e-6)
     element.step(element.at_rest(), 1e-3, (0.0, 0.0, 10e-6))
     _ = element.address
     for u_y in (None, [0.0, 1e-6]):
-        slide_record(BALL, material, MU_0, [0.0, 1.0], [0.0, 1e-6], u_y, u_z=20e-6)
+        slide_record(CASE.indenter, material, CASE.mu_0, [0.0, 1.0], [0.0, 1e-6], u_y, u_z=20e-6)

@@ -22,17 +22,16 @@ from mdr.half_space.friction import Friction, LastPeriod, Settings, contact_of, 
 from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Step
 from mdr.tools.arrays import Array
-from mdr.tools.checks import count, finite, finite_array, positive
+from mdr.tools.checks import count, finite, positive, row
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import time_is_over, time_limit
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span, with_error
 
-CELLS, STEPS, PERIODS = 41, 100, 60  #: unless they are given; of the periods the most
-LEAST_CELLS, LEAST_STEPS = 8, 8
+PERIODS = 60  #: at most, unless they are given
+LEAST = 8  #: cells along a side, and steps of a period
 SETTLED = 1e-4  #: share of mu_0 that the COF may still change by
-TWICE = 2.0  #: what a companion changes counts so much
 STARTS = ("full_slip", "rest")
 
 
@@ -243,7 +242,7 @@ def slide(
     """
     settings = _settings(case, cells, steps_per_period, n_periods, coupled, start)
     v_0 = _velocity(case, v_0)
-    with _limit(limit_s):
+    with time_limit(limit_s):
         return _with_errors(case, v_0, settings, Ends())[0]
 
 
@@ -295,12 +294,10 @@ def curve(
     array([0.22, 0.27])
     """
     settings = _settings(case, cells, steps_per_period, n_periods, coupled, start)
-    velocities = np.array(finite_array("v_0", v_0, "m/s"), ndmin=1)
-    if velocities.ndim != 1 or velocities.size == 0:
-        raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
+    velocities = row("v_0", v_0, "m/s", "velocities")
     asked = [_velocity(case, one) for one in velocities.tolist()]
     runs: dict[int, HalfSpaceRun] = {}
-    with _limit(limit_s):
+    with time_limit(limit_s):
         near = Ends()
         for place in np.argsort(velocities)[::-1].tolist():
             runs[place], near = _with_errors(case, asked[place], settings, near)
@@ -324,21 +321,21 @@ def _settings(
     if start not in STARTS:
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
     for name, value, least in (
-        ("cells", cells, LEAST_CELLS),
-        ("steps_per_period", steps, LEAST_STEPS),
+        ("cells", cells, LEAST),
+        ("steps_per_period", steps, LEAST),
         ("n_periods", periods, 1),
     ):
         if value is not None:
             count(name, value, least)
     settings = Settings(
-        CELLS if cells is None else cells,
-        STEPS if steps is None else steps,
+        Settings.cells if cells is None else cells,
+        Settings.steps if steps is None else steps,
         PERIODS if periods is None else periods,
         coupled,
         settled=SETTLED if periods is None else 0.0,
         from_rest=start == "rest",
     )
-    contact_of(case, replace(settings, cells=LEAST_CELLS))
+    contact_of(case, replace(settings, cells=LEAST))
     return settings
 
 
@@ -348,10 +345,6 @@ def _velocity(case: SlidingContact, v_0: Any) -> float:
     return positive(
         "v_0", v_0, "pulling velocity in m/s, and the other way is the same where nothing shakes in the plane"
     )
-
-
-def _limit(limit_s: float | None) -> Any:
-    return time_limit(limit_s if limit_s is None else positive("limit_s", limit_s, "seconds"))
 
 
 # --- runs and their companions ---
@@ -380,7 +373,8 @@ def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: End
             break
         found = last_period(case, v_0, other, begin[name], arrived=begin[name] is fine.steps[-1])
         ends = ends._replace(**{name: found.steps[-1]})
-        errors[name] = max(TWICE * _apart(fine.friction, found.friction), least[name])
+        # what a companion changes counts twice
+        errors[name] = max(2.0 * _apart(fine.friction, found.friction), least[name])
     return _record(case, v_0, settings, fine, errors["wide"], errors["halved"]), ends
 
 
@@ -411,8 +405,7 @@ def _record(
     share = float(tractions[:, Z][stick].sum() / tractions[:, Z].sum())
     places = last.contact.half_space.places
     return HalfSpaceRun(
-        cof=found.cof,
-        cof_y=found.cof_y,
+        **{name: getattr(found, name) for name in ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")},
         cof_error=min(grid + step + rest, 2 * mu_0),
         grid_error=grid,
         step_error=step,
@@ -421,9 +414,6 @@ def _record(
         kind="unsettled" if not settled else "periodic" if share else "full slip",
         why="" if settled else "; ".join(_why_not(found, rest / mu_0)),
         stick_share=share,
-        mean_F_x=found.mean_F_x,
-        mean_F_y=found.mean_F_y,
-        mean_F_z=found.mean_F_z,
         v_0=v_0,
         mu_0=mu_0,
         coupled=settings.coupled,

@@ -24,9 +24,6 @@ from mdr.half_space.normal import NotConverged, pressure
 from mdr.half_space.tangential import stiffness_of, traction
 from mdr.tools.arrays import EXACT, Array
 
-MIDDLE = 10  #: times the tolerance is that of the middle of a step, which lies within the error of the step by far
-FIRST = 1e-4  #: how closely the first turn of a step is solved, which the next ones correct
-
 
 @dataclass(frozen=True)
 class Step:
@@ -101,7 +98,8 @@ class Contact:
 
     def _two_stages(self, state: Step, halfway: float, depth: float, moved: Array, guess: Array) -> Step:
         """The state after a step, by that in its middle at the depth `halfway`; time plays no part."""
-        middle = self.step(state, halfway, moved / 2, 1.0, (state.tractions + guess) / 2, MIDDLE * self.tolerance)
+        # ten tolerances at the middle of a step are far within the error of the step
+        middle = self.step(state, halfway, moved / 2, 1.0, (state.tractions + guess) / 2, 10 * self.tolerance)
         onward = replace(middle, displacement=2 * middle.displacement - state.displacement)
         end = self.step(onward, depth, np.zeros(2), 1.0, 2 * middle.tractions - state.tractions)
         slip = moved[:, None, None] - (end.displacement - state.displacement)[:2]
@@ -157,7 +155,8 @@ class Contact:
         other. Returns 0, or by what share forces still change after all turns.
         """
         last, finest = self.forces(tractions), max(tolerance, self.tolerance) * 1e-2
-        fine = FIRST if self.half_space.beta else finest
+        # the first turn of a step is solved coarsely: the next ones correct it
+        fine = 1e-4 if self.half_space.beta else finest
         for _ in range(self.turns):
             gap = down - self.half_space.displacement(tractions[:2], (Z,), (X, Y))[0]
             tractions[Z] = pressure(self._normal, gap, tractions[Z], fine)

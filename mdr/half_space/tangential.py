@@ -19,10 +19,6 @@ from numpy.typing import NDArray
 from mdr.half_space.normal import NotConverged
 from mdr.tools.arrays import EPS, Array
 
-#: to which part of what is left a Newton step is solved: the step is only a direction, which the line search shortens
-CLOSE = 1e-2
-MOST_CG = 1000  #: of its steps
-
 
 def traction(
     product: Callable[[Array], Array],
@@ -58,7 +54,8 @@ def traction(
             normal,
             bound > 0,
             stiff,
-            max(CLOSE, 0.1 * tolerance * scale / float(np.max(off))),
+            # coarsely: the step is only a direction, which the line search shortens
+            max(1e-2, 0.1 * tolerance * scale / float(np.max(off))),
         )
         q, image = _searched(product, q, image, c, step, bound)
     raise NotConverged(f"friction is off by {np.max(off) / scale:.1e} of its bound after {most} steps")
@@ -111,7 +108,7 @@ def _newton(
     left = -free(gradient)
     step, direction, before = np.zeros_like(left), np.zeros_like(left), np.inf
     enough = close * float(np.linalg.norm(left))
-    for _ in range(MOST_CG):
+    for _ in range(1000):  # steps of conjugate gradients
         if np.linalg.norm(left) <= enough:
             break
         scaled = scaling * left

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import Indenter, rim_pressure
+from mdr.indenters.base import Indenter
+from mdr.indenters.mapped import rim_pressure
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array, plain
 from mdr.tools.fields import facts

@@ -26,7 +26,6 @@ from mdr.tools.checks import FieldError, finite, finite_array, not_negative, pla
 from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
-FALL = 1e-6  #: fall of a(d) over its greatest value that may be the spline's
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 
 
@@ -280,7 +279,8 @@ class FromForce(Indenter):
         z = np.interp(np.arange(8 * n - 7) / 8, np.arange(n), self._place(np.array(self.d[1:])))
         with np.errstate(all="ignore"):
             d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
-            return why_no_shape(d, self._radius(d), self._force(d) / self.E_star, FALL)
+            # a(d) may fall by 1e-6 of its greatest value: the spline's doing
+            return why_no_shape(d, self._radius(d), self._force(d) / self.E_star, 1e-6)
 
     def _smoothed_enough(self, smoothing: float) -> bool:
         """Whether another smoothing makes it a shape."""

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.indenters.base import SAMPLES, Indenter
+from mdr.indenters.base import Indenter
+from mdr.indenters.mapped import SAMPLES
 from mdr.indenters.sampled_profile import radii
 from mdr.tools.arrays import Array
 from mdr.tools.checks import FieldError, FieldTypeError, finite_array, plain, positive

@@ -21,9 +21,7 @@ Pairs = tuple[tuple[float, float], ...]
 
 TOLD = 0.1  #: misfit that is told: dynamic tests are good to some 5 %, and one of ten points to twice that
 ONE = 0.01  #: relative difference of frequencies that are one: no passive modulus rises faster than its frequency
-A_DECADE = 3.0  #: arms per decade of frequency, where none were asked for
 MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
-MARGINS = (3.0, 10.0, 100.0, 1000.0)  #: reach of the arms beyond the range, for the rest of a power law
 
 
 def to_data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int | None) -> tuple[float, Pairs]:
@@ -48,7 +46,8 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
     dense = np.geomspace(low, high, 40 * (1 + int(np.ceil(np.log10(high / low)))))
     wanted = modulus * (1j * dense / low) ** exponent
     least = np.inf
-    for n_arms, margin in product(range(2, MOST_ARMS + 1), MARGINS):
+    # arms reach beyond the range by a margin, for the rest of a power law
+    for n_arms, margin in product(range(2, MOST_ARMS + 1), (3.0, 10.0, 100.0, 1000.0)):
         times = np.geomspace(1 / (margin * high), min(margin, 10) / low, n_arms)
         E_inf, moduli = _moduli(dense, wanted, times)
         if E_inf == 0:
@@ -103,7 +102,8 @@ def _misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
 
 
 def _usual_arms(omega: Array) -> int:
-    return round(A_DECADE * float(np.log10(omega.max() / omega.min()))) + 1
+    # three a decade
+    return round(3.0 * float(np.log10(omega.max() / omega.min()))) + 1
 
 
 def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:

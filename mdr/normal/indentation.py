@@ -47,7 +47,6 @@ from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
 STEPS = 1200  #: of a history of force, at least; then as many again, twice as fine
-LONG = 0.3  #: an interval longer than this share of the time since the last jump is cut finer towards its start
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -401,7 +400,8 @@ def _finer(t: Array, F_z: Array, n: int) -> tuple[Array, Array, NDArray[np.intp]
     even, jumped = np.arange(1, n + 1) / n, t[0]
     fine, force = [t[:1]], [F_z[:1]]
     for (low, high), (before, after) in zip(pairwise(t), pairwise(F_z), strict=True):
-        share = even**3 if high - low > LONG * (low - jumped) else even
+        # an interval that is long for the time since the last jump is cut finer towards its start
+        share = even**3 if high - low > 0.3 * (low - jumped) else even
         if high == low:
             jumped, share = low, np.ones(1)
         fine.append(low + (high - low) * share)

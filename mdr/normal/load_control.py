@@ -38,9 +38,6 @@ from mdr.tools.checks import instance, positive
 from mdr.tools.memoise import remembered
 
 N_HARMONICS = N_STEPS // 8  #: of the depth, an eighth of the instants at which the force is known
-ENOUGH = 1e-4  #: error of the balance of forces, of the mean load, with which a search that gets no further may end
-PATIENCE = 40  #: iterations without half the error, after which the search ends
-MEMORY = 10  #: iterations that are combined
 
 
 def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
@@ -212,7 +209,8 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
         return np.asarray(load - F_n + motion.m_z * (n * omega) ** 2 * u)
 
     u, off = _anderson(missing, weight, start, motion.F_z0)
-    if not off <= ENOUGH:
+    # with this error of the balance of forces a search that gets no further may end
+    if not off <= 1e-4:
         raise ValueError(
             "no depth of the period of the load was found: the mass m_z bounces in another rhythm, or is near its "
             "resonance on the contact; lower dF_z, move omega, or prescribe the depth with PeriodicMotion"
@@ -235,7 +233,7 @@ def _anderson(
     tried: list[NDArray[np.complex128]] = []
     moves: list[NDArray[np.complex128]] = []
     best, least, known, since = u, np.inf, np.inf, 0
-    while least > SAME and since <= PATIENCE:
+    while least > SAME and since <= 40:  # iterations without half the error
         rest = missing(u)
         off = float(np.abs(rest).max()) / F_z0
         if off < least:
@@ -246,7 +244,7 @@ def _anderson(
         if off > 1e3 * least or not np.isfinite(off):
             tried, moves, u = [], [], best
             continue
-        tried, moves = [*tried, u][-MEMORY:], [*moves, rest / weight][-MEMORY:]
+        tried, moves = [*tried, u][-10:], [*moves, rest / weight][-10:]  # of so many iterations the next is made
         if len(moves) == 1:
             u = u + 0.5 * moves[-1]
             continue

@@ -11,12 +11,14 @@ from dataclasses import dataclass, field, replace
 
 from mdr.case.contact import SlidingContact, require_case
 from mdr.case.depth_cycle import Cycle
+from mdr.case.doubts import doubts_of
 from mdr.case.motion import ConstantLoad, LoadOscillation, Motion
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
-from mdr.normal.doubts import doubts_of, warn_at_the_door
 from mdr.normal.load_control import depth_under_load, static_depth
+from mdr.normal.stability import doubts_of_load
 from mdr.tools.memoise import remembered
+from mdr.tools.warned import asked_from_outside, warn_outside
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def resolved(case: SlidingContact) -> SlidingContact:
     2.6e-05 m
     """
     known = with_depth(case)
-    warn_at_the_door(known)
+    _warn(known)
     return known
 
 
@@ -140,7 +142,21 @@ def plausibility(case: SlidingContact) -> tuple[str, ...]:
     ...     print(doubt)
     the amplitude of the depth is 10 times the mean depth ...
     """
-    return doubts_of(with_depth(case))
+    return _doubts_of(with_depth(case))
+
+
+def _doubts_of(known: SlidingContact) -> tuple[str, ...]:
+    return (*doubts_of(known), *doubts_of_load(known))
+
+
+def _warn(known: SlidingContact) -> None:
+    """Warn of what is unlikely of a case of known depth, where code outside the package asked for it.
+
+    Called by what a public function calls first; warned of is the line that called the public function. What the
+    package asks itself, such as each point of a study, is not looked at.
+    """
+    for doubt in _doubts_of(known) if asked_from_outside() else ():
+        warn_outside(doubt)
 
 
 def at_rest(case: SlidingContact) -> SlidingContact:
@@ -150,7 +166,7 @@ def at_rest(case: SlidingContact) -> SlidingContact:
     Raises ValueError where the shape does not carry the load.
     """
     known = with_depth(case, moving=False)
-    warn_at_the_door(known)
+    _warn(known)
     return known
 
 

@@ -23,9 +23,6 @@ from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.tools.arrays import EPS, SAME, Array
 
-LEAST = 2  #: springs of a stretch
-AS_ONE = 1 / 8  #: of the springs of another stretch, that one gets whose springs move alike
-
 
 def nodes(
     shape: Indenter, cycle: Cycle, kept_gap: float, n_springs: int, alike: bool = True
@@ -81,14 +78,15 @@ def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]
 
 def _share_out(stretches: list[_Stretch], n_springs: int, unit: float, alike: bool) -> list[int]:
     """Number of springs of each stretch: the same, but for those where all move alike."""
-    least = LEAST * len(stretches)
+    least = 2 * len(stretches)
     if n_springs < least:
         raise ValueError(f"n_springs must be at least {least} for this shape with its kinks, got {n_springs}")
     level = np.array([stretch.gap_hi - stretch.gap_lo <= SAME * unit for stretch in stretches])
     as_one = [alike and stretch.permanent for stretch in stretches]
-    shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(as_one, AS_ONE, 1.0)))
+    # a stretch whose springs move alike gets an eighth of the springs of another
+    shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(as_one, 1 / 8, 1.0)))
     more = np.rint((n_springs - least) * shares / shares[-1])
-    return (LEAST + np.diff(more, prepend=0).astype(int)).tolist()  # type: ignore[no-any-return]
+    return (2 + np.diff(more, prepend=0).astype(int)).tolist()  # type: ignore[no-any-return]
 
 
 def _springs_of(shape: Indenter, u_z0: float, stretch: _Stretch, n: int) -> tuple[Array, Array, Array]:

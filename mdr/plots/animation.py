@@ -16,11 +16,7 @@ from mdr.plots.side_view import SideView
 from mdr.tools.checks import count
 from mdr.tools.progress import progress
 
-SECONDS = 4.0  #: that one period lasts in the picture
-MOST_DRAWN = 13  #: springs on each side
 COIL = np.array([0, 0, *[1, -1] * 4, 0, 0])  #: places of the bends of a spring beside its axis, from the foot up
-PALETTE = 32  #: colours of the file
-MARKS = 24  #: about so many on the ground
 
 
 @dataclass(frozen=True)
@@ -99,9 +95,9 @@ def animate_springs(
                 part.show(k)
             pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy()))
     few = Image.fromarray(np.concatenate([np.asarray(one) for one in pictures[:: max(1, len(pictures) // 4)]]))
-    palette = few.quantize(PALETTE, method=Image.Quantize.FASTOCTREE)
+    palette = few.quantize(32, method=Image.Quantize.FASTOCTREE)  # colours of the file
     first, *rest = (one.quantize(palette=palette, dither=Image.Dither.NONE) for one in pictures)
-    lasts = round(1e3 * SECONDS * periods / len(at))
+    lasts = round(4e3 * periods / len(at))  # ms; a period lasts four seconds
     first.save(path, save_all=True, append_images=rest, duration=lasts, loop=0, comment=comment.encode())
     return Gif(path)
 
@@ -117,7 +113,7 @@ class _Springs:
     def __init__(self, ax: Any, run: Any) -> None:
         from matplotlib.collections import LineCollection
 
-        self.ax, self.run, self.view = ax, run, (view := SideView(run, MOST_DRAWN))
+        self.ax, self.run, self.view = ax, run, (view := SideView(run, 13))  # springs on each side
         self.coil = 0.3 * COIL * 2 * view.x[-1] / view.x.size
         (self.body,) = ax.fill([0], [0], facecolor="0.9", linewidth=0, animated=True)
         (self.surface,) = ax.plot([], [], color="0.2", linewidth=1.2, animated=True)
@@ -129,7 +125,7 @@ class _Springs:
         ax.set(xlim=(-reach, reach), ylim=(bottom, view.top), ylabel=f"height [{view.unit_z}]")
         ax.axhline(view.ground, color="0.2", linewidth=1.2)
         way = view.lean * 2 * np.pi / run.omega * abs(run.v_0) or 2 * reach  # of the ground in a period
-        self.apart = way / max(1, round(MARKS * way / (2 * reach)))
+        self.apart = way / max(1, round(24 * way / (2 * reach)))  # about 24 marks on the ground
         begins = np.arange(-reach - self.apart, reach, self.apart)
         ends = (begins, np.full_like(begins, bottom)), (begins + self.apart / 2, np.full_like(begins, view.ground))
         self.hatching = np.moveaxis(np.array(ends), 2, 0)

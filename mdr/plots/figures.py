@@ -39,11 +39,8 @@ __all__ = [
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
-#: colours of the direction of slip, from -180 degrees on; that along the pull is the colour of slip
-AROUND = ((-180, "#CC79A7"), (-90, "#D55E00"), (0, "#F0B93A"), (90, "#009E73"), (135, "#56B4E9"), (180, "#CC79A7"))
 
 PIECES = 16  #: straight ones between two points of a smooth line
-_MAX_COLUMNS = 2000  # of a spring map: more than a page has pixels
 
 
 @contextmanager
@@ -443,7 +440,7 @@ def _draw_map(ax: "Axes", run: Any, unit: tuple[float, str]) -> Any:
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     order, t = np.argsort(run.x), periods_of(run)
-    every = -(-len(t) // _MAX_COLUMNS)
+    every = -(-len(t) // 2000)  # more than a page has pixels
     cells = edges_of(t[::every]), _boundaries(np.asarray(run.x)[order]) * unit[0]
     state = np.asarray(run.state)[::every, order].T
     modes, norm = ListedColormap([colour for _, colour in MODES]), BoundaryNorm(np.arange(5) - 0.5, 4)
@@ -460,7 +457,9 @@ def around() -> Any:
     """The cyclic colour map of directions, from -180 to 180 degrees."""
     from matplotlib.colors import LinearSegmentedColormap
 
-    return LinearSegmentedColormap.from_list("around", [((at + 180) / 360, colour) for at, colour in AROUND])
+    # that along the pull is the colour of slip
+    colours = {-180: "#CC79A7", -90: "#D55E00", 0: MODES[2][1], 90: "#009E73", 135: "#56B4E9", 180: "#CC79A7"}
+    return LinearSegmentedColormap.from_list("around", [((at + 180) / 360, one) for at, one in colours.items()])
 
 
 def _direction_bar(figure: Any, turned: Any, beside: Any) -> None:

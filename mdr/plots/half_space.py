@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_half_space", "plot_half_space_curve"]
 
-ARROWS = 13  #: along a side, at most
-QUARTERS = (0.25, 0.5, 0.75, 1.0)  #: of the period, the instants that are drawn
-STICK, SLIP = COLOURS[1], "0.72"
 SEEN = 1e-6  #: share of mu_0 from which a COF across is told
 
 
@@ -41,7 +38,7 @@ def plot_half_space(run: Any, instant: float | None = None) -> Figure:
     """
     if instant is not None and not 0 <= instant <= 1:
         raise ValueError(f"instant must lie between 0 and 1, a share of the period, got {instant!r}")
-    shares = QUARTERS if instant is None else (instant,)
+    shares = (0.25, 0.5, 0.75, 1.0) if instant is None else (instant,)  # of the period
     length, pressure = prefix(run.x, "m"), prefix(run.pressure, "Pa")
     size = (11.4, 3.5) if instant is None else (5.8, 5.4)
     with style():
@@ -79,10 +76,10 @@ def _draw_instant(ax: Axes, run: Any, step: int, length: float, pressure: float)
         hatch = ax.contourf(
             x, y, (touching & ~stick).T.astype(float), levels=[0.5, 1.5], colors="none", hatches=["////"]
         )
-        hatch.set_edgecolor(SLIP)
+        hatch.set_edgecolor("0.72")
         hatch.set_linewidth(0.0)
     if stick.any():
-        ax.contour(x, y, stick.T.astype(float), levels=[0.5], colors=STICK, linewidths=1.8)
+        ax.contour(x, y, stick.T.astype(float), levels=[0.5], colors=COLOURS[1], linewidths=1.8)
     _arrows(ax, x, y, run.q_x[step], run.q_y[step], touching, run.mu_0 * run.pressure.max())
     ax.set_aspect("equal")
     return colour
@@ -92,7 +89,7 @@ def _arrows(
     ax: Axes, x: NDArray[Any], y: NDArray[Any], q_x: NDArray[Any], q_y: NDArray[Any], where: NDArray[Any], most: float
 ) -> None:
     """Every few cells one arrow, its middle in the cell, one scale in all panels."""
-    every = -(-x.size // ARROWS)
+    every = -(-x.size // 13)  # arrows along a side, at most
     some = np.zeros_like(where)
     first = (x.size // 2) % every  # so that a row runs through the middle
     some[first::every, first::every] = True

@@ -11,10 +11,6 @@ import numpy as np
 
 from mdr.plots.figures import MODES, mode_patches, prefix
 
-DRAWN = 5  #: springs, evenly by their greatest depth
-PAST = 8  #: how often the record is drawn behind the indenter, as its path
-AHEAD, BEHIND = 1.2, 2.6  #: reach of the picture from the pull, over half of its width
-
 
 class Leashes:
     """The plane from above, moving with the pull; on axes, for an animation that calls `show`."""
@@ -23,7 +19,8 @@ class Leashes:
         from matplotlib.collections import LineCollection
 
         depth, k_x = run.s.max(axis=0), _stiffness(run)
-        some = np.unique(np.abs(depth[:, None] - np.linspace(depth.max(), 0, DRAWN, endpoint=False)).argmin(axis=0))
+        # five springs, evenly by their greatest depth
+        some = np.unique(np.abs(depth[:, None] - np.linspace(depth.max(), 0, 5, endpoint=False)).argmin(axis=0))
         path = np.stack([run.u_x - run.v_0 * run.t, run.u_y], axis=1)
         feet = path[:, None] - np.stack([run.e[:, some], run.e_y[:, some]], axis=2)
         reach = 0 * run.s[:, some] if k_x is None else run.mu_0 * run.f_z[:, some] / k_x[some]
@@ -40,7 +37,8 @@ class Leashes:
             ax.add_collection(lines)
         self.dots = ax.scatter(*self.feet[0].T, s=28, zorder=3, **moves)
         (self.body,) = ax.plot([], [], "o", color="k", ms=9, zorder=4, **moves)
-        ends = np.sort((np.sign(run.v_0) or 1.0) * half * per * np.array([-BEHIND, AHEAD]))
+        # reach of the picture behind the pull and ahead of it, over half of its width
+        ends = np.sort((np.sign(run.v_0) or 1.0) * half * per * np.array([-2.6, 1.2]))
         ax.set(aspect="equal", xlim=ends, ylim=(-half * per, half * per))
         ax.set(xlabel=f"along the pull, and moving with it [{unit}]", ylabel=f"across [{unit}]")
         known = mode_patches(self.state[self.state > 0]), [self.trail], [] if k_x is None else [self.circles]
@@ -59,7 +57,7 @@ class Leashes:
         self.dots.set_offsets(feet)
         self.dots.set_color(shades)
         self.body.set_data(*here[:, None])
-        past = np.arange(-PAST * len(self.path), 1)
+        past = np.arange(-8 * len(self.path), 1)  # the path behind the indenter
         x, y = self.path[(k + past) % len(self.path)].T
         self.trail.set_data(x + self.step * past, y)
         for artist in (self.trail, self.circles, self.lines, self.dots, self.body):

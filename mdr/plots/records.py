@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mdr.plots.figures import COLOURS, prefix, style, subplots
+from mdr.plots.figures import COLOURS, axes_of, prefix, style, subplots
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST = 20_000  #: samples that are drawn
-
 
 def plot_slide_record(found: Any) -> Figure:
     """Draw position, forces and running COF of a SlideRecord over time."""
-    every = slice(None, None, -(-found.t.size // MOST))
+    every = slice(None, None, -(-found.t.size // 20_000))  # samples that are drawn
     time, second = prefix(found.t - found.t[0], "s")
     t = time * found.t[every]
     panels = (("position", "m", ("u_x", "u_y", "u_z")), ("force", "N", ("F_x", "F_y", "F_z")))
@@ -40,8 +38,7 @@ def plot_random_cof(found: Any, ax: Any = None) -> Any:
     """Draw friction of a RandomCof with two standard errors over the velocity."""
     factor, symbol = prefix(found.v_0, "m/s")
     with style():
-        if ax is None:
-            _, ax = subplots()
+        ax = axes_of(ax)
         ax.errorbar(factor * found.v_0, found.cof, 2 * found.standard_error, fmt="o-", ms=4, capsize=2)
         ax.axhline(found.mu_0, color="0.6", lw=1, ls="--")
         ax.set(xlabel=f"pulling velocity $v_0$ [{symbol}]", ylabel=r"coefficient of friction, $\pm 2$ standard errors")

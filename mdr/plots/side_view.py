@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 
 from mdr.plots.figures import prefix
 
-LEAN = 0.08  #: greatest lean of a spring, over the width of the picture
 MARGIN = 1.15  #: half the width of the picture, over that of the contact
-EDGE = 0.1  #: of the greatest compression: what the outermost spring of a contact that grows with depth has at most
 
 
 class SideView:
@@ -30,7 +28,8 @@ class SideView:
         self.flanks = np.concatenate([-flanks[::-1], flanks]) * self.per_x
         self.image = np.concatenate([image[::-1], image]) * self.per_z
         deepest, sheared = float(run.s.max()) * self.per_z, float(np.abs(run.e).max())
-        self.lean = LEAN * 2.2 * float(run.x[-1]) * self.per_x / sheared if sheared else 0.0
+        # a spring leans by 0.08 of the width of the picture at most
+        self.lean = 0.08 * 2.2 * float(run.x[-1]) * self.per_x / sheared if sheared else 0.0
         self.ground, self.top = -2.2 * deepest, deepest * float(np.clip(0.3 - run.u_z.min() / run.s.max(), 0.6, 1.5))
 
     @property
@@ -60,7 +59,8 @@ class SideView:
 def _image(run: Any) -> tuple[NDArray[Any], NDArray[Any]]:
     """Places x >= 0 and the image g(x), as the springs felt it [m]; straight on where a growing contact ends."""
     x, image = run.x, np.max(run.u_z[:, None] - run.s, axis=0)  # no spring reaches through the indenter: s >= u_z - g
-    if run.s[:, -1].max() > EDGE * run.s.max():
+    # a contact that grows with depth ends in springs that are hardly pressed
+    if run.s[:, -1].max() > 0.1 * run.s.max():
         return x, image  # a wall
     back = -1 - x.size // 10
     slope = (image[-1] - image[back]) / (x[-1] - x[back])

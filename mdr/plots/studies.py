@@ -8,23 +8,22 @@ are drawn on a logarithmic scale.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.plots.figures import axes_of, colours, edges_of, prefix, style, subplots
-from mdr.studies.axes import Axis
-from mdr.studies.points import Status
 from mdr.tools.arrays import Array
+from mdr.tools.status import Status
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from mdr.studies.study import Study
-
+Study: TypeAlias = Any  #: of mdr.studies, read by attribute
+Axis: TypeAlias = Any
 LABELS = {
     "cof": r"coefficient of friction $\mu$",
     "static_cof": r"static friction $\mu_s$",
@@ -35,10 +34,6 @@ LABELS = {
     "cof_error": "error of the coefficient of friction",
 }  #: how quantities are written in figures; any other by its name
 ABSENT = (("failed", Status.FAILED), ("not computed", Status.MISSING))
-LOG_FROM = 4.0  #: ratio of the greatest to the least value from which on a scale may be logarithmic
-N_LEVELS = 6  #: of a map, at most about so many contours
-PLATEAU = 0.01  #: of the range of a map, in which no contour is drawn at either end
-MOST_LABELS = 10  #: values of a family that are named one by one
 
 
 def plot(study: Study, quantity: str | None = None, levels: Sequence[float] | None = None) -> Figure:
@@ -71,8 +66,8 @@ def _contours(study: Study, quantity: str, levels: Sequence[float] | None) -> di
         from matplotlib.ticker import MaxNLocator
 
         low, high = _limits(study[quantity], log=False)
-        rim = PLATEAU * (high - low)  # on a plateau at an end a contour would follow rounding
-        levels = [float(one) for one in MaxNLocator(N_LEVELS).tick_values(low, high) if low + rim < one < high - rim]
+        rim = 0.01 * (high - low)  # on a plateau at an end a contour would follow rounding
+        levels = [float(one) for one in MaxNLocator(6).tick_values(low, high) if low + rim < one < high - rim]
     return {"levels": levels} if len(levels) else {}
 
 
@@ -132,7 +127,7 @@ def plot_curves(study: Study, quantity: str, x: str | None = None, ax: Axes | No
         order = np.argsort(places)
         shades = colours(len(names))
         for i, (row, fate, colour, name) in enumerate(zip(values, status, shades, names, strict=True)):
-            named = len(names) <= MOST_LABELS or i in (0, len(names) - 1)
+            named = len(names) <= 10 or i in (0, len(names) - 1)  # else first and last
             ax.plot(places[order], row[order], color=colour, label=name if named else None)
             loose = fate == Status.UNSETTLED
             ax.plot(places[loose], row[loose], "o", mfc="white", mec=colour, markersize=5)
@@ -276,7 +271,8 @@ def _scale(ax: Axes, which: str, axis: Axis) -> float:
 def _is_log(axis: Axis) -> bool:
     """Whether the values grow by a constant factor."""
     values = np.sort(np.asarray(axis.values, dtype=float))
-    if values.size < 3 or values[0] <= 0 or values[-1] < LOG_FROM * values[0]:
+    # a scale may be logarithmic from a ratio of 4 on
+    if values.size < 3 or values[0] <= 0 or values[-1] < 4.0 * values[0]:
         return False
     steps = np.diff(np.log(values))
     return bool(np.ptp(steps) < 0.01 * steps.mean())
@@ -298,7 +294,7 @@ def _label(name: str) -> str:
 def _value(axis: Axis, index: int, name: bool = False) -> str:
     """One value of an axis as a label, with its symbol if asked for."""
     if not axis.is_numeric:
-        return axis.labels[index]
+        return str(axis.labels[index])
     factor, unit = prefix([axis[index]], axis.unit) if axis.unit not in ("", "-") else (1.0, "")
     number = f"{axis[index] * factor:.3g}{f' {unit}' if unit else ''}"
     return f"{_label(axis.path)} = {number}" if name else number

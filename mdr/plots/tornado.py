@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.plots.figures import COLOURS, axes_of, prefix, style, subplots
 
 if TYPE_CHECKING:

@@ -4,10 +4,10 @@ From `axes` (what varies) and `quantities` (what is computed) follows the `work`
 `engine` deals it out in chunks, `store` keeps these, `study` is what comes out, and `formats` are its files.
 """
 
-from mdr.studies.points import Status
 from mdr.studies.quantities import CATALOGUE, Quantity
 from mdr.studies.store import StudyError, read_study
 from mdr.studies.study import Study
 from mdr.studies.sweep import sweep
+from mdr.tools.status import Status
 
 __all__ = ["CATALOGUE", "Quantity", "Status", "Study", "StudyError", "read_study", "sweep"]

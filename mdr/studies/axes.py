@@ -29,14 +29,13 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
-from mdr.case.units import facts_at
-from mdr.normal.vary import GROUPS, RIG, fields_of, fields_set
+from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_set
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
+from mdr.tools.fields import fields_of
 from mdr.tools.messages import nearest, one_line, short
 from mdr.tools.records import ArrayRecord
 
-VELOCITIES = ("v_0", "v_0/v_c")
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 
@@ -124,7 +123,9 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
     for path in axes:
         if not isinstance(path, str):
             raise TypeError(f"axes must have paths in quotes for keys, got {path!r}")
-    _refuse_two_for_one(axes)
+    for one, two in combinations(axes, 2):
+        if {one, two} == set(VELOCITIES) or set(fields_set(one)) & set(fields_set(two)):
+            raise ValueError(f"{one} and {two} set the same; keep one of the two")
     own = {slot: () if getattr(case, slot) is None else (getattr(case, slot),) for slot in KINDS}
     parts = own | {slot: _records(slot, axes[slot]) for slot in KINDS if slot in axes}
     for path in axes:
@@ -224,9 +225,3 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""
     there = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
     raise ValueError(f"{short(path)} is no path of this case{whose}; {there}")
-
-
-def _refuse_two_for_one(axes: Mapping[str, Any]) -> None:
-    for one, two in combinations(axes, 2):
-        if {one, two} == set(VELOCITIES) or set(fields_set(one)) & set(fields_set(two)):
-            raise ValueError(f"{one} and {two} set the same; keep one of the two")

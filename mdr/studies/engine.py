@@ -16,12 +16,13 @@ from typing import Any
 
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.studies.formats import packed
-from mdr.studies.points import Points, Status, compute
+from mdr.studies.points import Points, compute
 from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
 from mdr.studies.study import Study, frame_of, study_of_points, tree_of
 from mdr.studies.work import Work, units_of
 from mdr.tools.progress import progress
+from mdr.tools.status import Status
 
 #: of a study with a store that has so many units, so that several workers share them evenly; as many units are timed
 LEAST_CHUNKS = 32

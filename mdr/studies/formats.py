@@ -1,4 +1,4 @@
-"""The files of a study: NetCDF, which can be read back, and a CSV table.
+"""The files of a study: NetCDF, which `unpack` reads back, and a CSV table.
 
 In NetCDF every quantity stands over labelled axes, with units; status as flags; reasons as a table. Names with "/",
 which it forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are no numbers are
@@ -10,18 +10,16 @@ from __future__ import annotations
 import csv
 import json
 from io import BytesIO, StringIO
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mdr.studies.axes import Axis
-from mdr.studies.points import Status
-from mdr.studies.study import Column, Study
+from mdr.tools.status import Status
 
+Study: TypeAlias = Any  #: read by attribute
 _TITLE = "Sliding friction under normal oscillation, a study by mdr"
-_ONE, _DASH = {"-": "1"}, {"1": "-"}  #: a pure number in the file, and here
-_MEANINGS = " ".join(status.name.lower() for status in Status)
+_ONE = {"-": "1"}  #: a pure number in the file
+MEANINGS = " ".join(status.name.lower() for status in Status)
 
 
 def packed(study: Study, history: str = "") -> bytes:
@@ -44,22 +42,11 @@ def packed(study: Study, history: str = "") -> bytes:
         _put(file, column.name, "d", dims, values, units=_ONE.get(column.unit, column.unit), long_name=column.meaning)
     flags = np.array([int(status) for status in Status], dtype=np.int8)
     ended = "how the computation of the point ended"
-    _put(file, "status", "b", dims, study.status, long_name=ended, flag_values=flags, flag_meanings=_MEANINGS)
+    _put(file, "status", "b", dims, study.status, long_name=ended, flag_values=flags, flag_meanings=MEANINGS)
     _put(file, "reason", "i", dims, study.reason, long_name="why it failed or did not settle, an index of reasons")
     _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
     file.flush()
     return buffer.getvalue()
-
-
-def unpacked(data: bytes) -> Study:
-    """The study in the bytes of a file; ValueError if they are none."""
-    from scipy.io import netcdf_file
-
-    try:
-        file = netcdf_file(BytesIO(data), "r", mmap=False)
-        return _study(file)
-    except (TypeError, ValueError, LookupError, AttributeError, EOFError, ArithmeticError) as fault:
-        raise ValueError(f"no study, or a damaged one: {fault}") from fault
 
 
 def table(study: Study) -> str:
@@ -102,49 +89,3 @@ def _tell(holder: Any, **told: Any) -> None:
             setattr(holder, name, value)
         elif value:
             setattr(holder, name, value.encode("utf-8"))
-
-
-# --- reading NetCDF ---
-
-
-def _study(file: Any) -> Study:
-    variables, status = file.variables, file.variables["status"]
-    if _text(status, "flag_meanings") != _MEANINGS:
-        raise ValueError("its states are not those of a study")
-    grid = tuple(_axis(variables[name]) for name in status.dimensions)
-    apart = {*status.dimensions, "status", "reason", "reasons"}
-    # the file sorts its variables by shape, which all quantities share, and keeps their order otherwise
-    columns = tuple(
-        Column(name, _DASH.get(unit := _text(one, "units"), unit), _text(one, "long_name"))
-        for name, one in variables.items()
-        if name not in apart
-    )
-    return Study(
-        grid,
-        columns,
-        case=_text(file, "case"),
-        version=_text(file, "mdr_version"),
-        identity=_text(file, "identity"),
-        selected=tuple((path, told) for path, told in json.loads(_text(file, "selected") or "[]")),
-        values=np.stack([_native(variables[column.name], "f8") for column in columns]),
-        status=_native(status, "u1"),
-        reason=_native(variables["reason"], "i4"),
-        reasons=_texts(variables["reasons"]),
-    )
-
-
-def _axis(variable: Any) -> Axis:
-    return Axis.known(_text(variable, "path"), _texts(variable) if variable.typecode() == "c" else variable.data)
-
-
-def _native(variable: Any, kind: str) -> NDArray[Any]:
-    return np.array(variable.data, dtype=kind, order="C")
-
-
-def _texts(variable: Any) -> tuple[str, ...]:
-    return tuple(b"".join(row).decode("utf-8") for row in np.asarray(variable.data))
-
-
-def _text(holder: Any, name: str) -> str:
-    value = getattr(holder, name, b"")
-    return value.decode("utf-8") if isinstance(value, bytes) else str(value)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from enum import IntEnum
 from threading import Event
 from typing import Any
 
@@ -21,18 +20,10 @@ from mdr.studies.work import Work
 from mdr.tools.arrays import Array
 from mdr.tools.messages import one_line
 from mdr.tools.progress import silent, unless
+from mdr.tools.status import Status
 
 #: what ends a point alone; a lack of memory, a broken disk or an unknown name end the sweep
 OF_THE_POINT = (ValueError, TypeError, ArithmeticError, LookupError, AttributeError, AssertionError, RuntimeError)
-
-
-class Status(IntEnum):
-    """How the computation of a point ended."""
-
-    DONE = 0  #: every quantity is there
-    UNSETTLED = 1  #: a run did not settle; its numbers are there
-    FAILED = 2  #: at least one quantity is missing, NaN
-    MISSING = 3  #: not computed yet
 
 
 @dataclass

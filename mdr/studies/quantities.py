@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.paths import VELOCITIES
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -20,7 +21,6 @@ from mdr.friction.cof_curve import CofCurve
 from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
-from mdr.studies.axes import VELOCITIES
 from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
 

@@ -26,12 +26,13 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mdr.studies.formats import unpacked
-from mdr.studies.points import Points, Status
+from mdr.studies.points import Points
 from mdr.studies.specification import differences
 from mdr.studies.study import Study, frame_in, study_of_points
+from mdr.studies.unpack import unpacked
 from mdr.studies.work import Layout, units_of
 from mdr.tools.atomic_write import is_partial, write_once, write_whole
+from mdr.tools.status import Status
 
 HEAD = ("identity", "specification", "frame", "block")  #: what study.json says
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)

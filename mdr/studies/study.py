@@ -20,7 +20,7 @@ from mdr.case.contact import SlidingContact
 from mdr.files.case_files import written
 from mdr.files.toml_text import CaseFileError
 from mdr.studies.axes import Axis, without_addresses
-from mdr.studies.points import Points, Status
+from mdr.studies.points import Points
 from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
@@ -28,6 +28,7 @@ from mdr.tools.atomic_write import write_whole
 from mdr.tools.csv_table import data_frame
 from mdr.tools.messages import MOST_TOLD, offer, short
 from mdr.tools.records import ArrayRecord
+from mdr.tools.status import Status
 from mdr.tools.summary import Printed
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)

@@ -28,13 +28,13 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.paths import facts_at, fields_set
 from mdr.case.pull import RigidPull
-from mdr.case.units import facts_at
-from mdr.files.case_files import case_of, record_of, stand_in
+from mdr.files.case_files import record_of
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, tried
-from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.friction.cof_curve import require_knobs
+from mdr.given.case_file import case_of, stand_in
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.normal.vary import fields_set
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.studies.work import MOST_NUMBERS
@@ -76,8 +76,7 @@ def study_from(content: Mapping[str, Any]) -> StudyFile:
     quantities = content.get("quantities", ["cof"])
     faults += _faults_of_names(quantities)
     knobs = {name: content.get(name) for name in ("n_springs", "steps_per_period")}
-    for name, knob in knobs.items():
-        faults += tried(count, name, knob, LEAST_KNOB)[1] if knob is not None else []
+    faults += [fault for name, knob in knobs.items() for fault in tried(require_knobs, **{name: knob})[1]]
     accuracy = content.get("accuracy", BUDGET)
     faults += tried(accuracy_of, accuracy)[1]
     try:
@@ -175,7 +174,7 @@ def _faults_of_axes(case: SlidingContact, axes: Mapping[str, Any]) -> list[str]:
 
 def _faults_behind(content: Mapping[str, Any], axes: Mapping[str, Any]) -> list[str]:
     """Faults of the axes although the case is refused: of those axes that do not set what is wrong in the case."""
-    case, unsound = stand_in(content)
+    case, unsound = stand_in(content, KEYS)
     slots = {path: {field.partition(".")[0] for field in fields_set(path)} for path in axes}
     seen = {path: axes[path] for path, those in slots.items() if not those & unsound}
     return _faults_of_axes(case, seen) if case is not None else []

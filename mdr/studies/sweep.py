@@ -11,18 +11,18 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.friction.cof_curve import LEAST_KNOB
+from mdr.friction.cof_curve import require_knobs
+from mdr.given.mean_load import warn_of_mean_loads
+from mdr.given.vary import load_asked, still_held
 from mdr.march.march import BUDGET, accuracy_of
-from mdr.normal.mean_load import warn_of_mean_loads
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import load_asked, still_held
 from mdr.studies.axes import read_axes
 from mdr.studies.engine import Call
 from mdr.studies.quantities import Quantity, read_quantities
 from mdr.studies.store import Store
 from mdr.studies.study import Study
 from mdr.studies.work import MOST_NUMBERS, Work
-from mdr.tools.checks import count, positive
+from mdr.tools.checks import positive
 from mdr.tools.keywords import offering
 from mdr.tools.messages import short
 
@@ -106,9 +106,7 @@ def sweep(
         at_rest(case)  # warns of what is unlikely
     axes_read, held = read_axes(case, axes), still_held(held or {}, axes)
     knobs: dict[str, Any] = {"n_springs": n_springs, "steps_per_period": steps_per_period}
-    for name, knob in knobs.items():
-        if knob is not None:
-            count(name, knob, LEAST_KNOB)
+    require_knobs(**knobs)
     knobs["accuracy"] = accuracy_of(accuracy)
     is_asked = load_asked({**held, **axes}, case) is not None and "mean_F_N" not in axes
     columns = read_quantities(quantities, axes, beside=["mean_F_N"] if is_asked else [])

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.normal.vary import case_at
+from mdr.given.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.quantities import Quantity
 
@@ -103,7 +103,7 @@ class Work:
     axes: tuple[Axis, ...]
     quantities: tuple[Quantity, ...]
     knobs: Mapping[str, Any] = field(default_factory=dict)  #: of runs: n_springs, steps_per_period and accuracy
-    held: Mapping[str, Any] = field(default_factory=dict)  #: what every case has besides, of `mdr.normal.vary.RIG`
+    held: Mapping[str, Any] = field(default_factory=dict)  #: what every case has besides, of `mdr.case.paths.RIG`
 
     @property
     def velocity_axis(self) -> Axis | None:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.tools.arrays import Array
+from mdr.tools.messages import short
 
 
 class _Blames(Exception):
@@ -71,6 +72,16 @@ def between(name: str, value: Any, low: float, high: float, note: str = "") -> f
     return _ruled(name, number, low < number < high, f"lie between {low:.6g} and {high:.6g}", note)
 
 
+def ends(name: str, given: Any) -> tuple[float, float]:
+    """The two ends of a range, the lower one first."""
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise TypeError(f"{name} must be a pair (low, high), got {short(repr(given))}")
+    low, high = (finite(name, end) for end in given)
+    if not low < high:
+        raise ValueError(f"{name} must be (low, high) with low < high, got {low:.6g} and {high:.6g}")
+    return low, high
+
+
 def _ruled(name: str, number: float, holds: bool, rule: str, note: str) -> float:
     """The number, for which a rule holds."""
     if not holds:
@@ -112,6 +123,14 @@ def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
         bad = array[~np.isfinite(array)].flat[0]
         raise FieldError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}", name)
+    return array
+
+
+def row(name: str, values: ArrayLike, unit: str = "", what: str = "numbers") -> Array:
+    """As `finite_array`, in a row of one or more: a copy, that whoever asked may keep."""
+    array = np.array(finite_array(name, values, unit), ndmin=1)
+    if array.ndim != 1 or array.size == 0:
+        raise FieldError(f"{name} must be a list of {what}, got an array of shape {array.shape}", name)
     return array
 
 

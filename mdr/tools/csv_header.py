@@ -20,7 +20,6 @@ _HEAD = re.compile(
     r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))?"
 )
 SPELLINGS = 4  #: how well a name fits, best first
-LONGEST = 120  #: characters of a header that a message quotes
 
 
 class Column(NamedTuple):
@@ -93,7 +92,7 @@ class Header:
         self.letters_differ = any(
             own in one.names for name, own in called.items() for one in columns if one.name != name
         )
-        self.text = short(", ".join(head.whole for head in self.heads), LONGEST)
+        self.text = short(", ".join(head.whole for head in self.heads), 120)
 
     def places(self) -> list[Place]:
         """Where each column stands. Raises ValueError with all that is wrong."""

@@ -27,8 +27,6 @@ from mdr.tools.messages import short
 from mdr.tools.notation import UNITS, converted, is_number, number_in, scale_of, shown
 from mdr.tools.warned import warn_outside
 
-MOST_ABOVE = 99  #: lines above a header, among which it is looked for
-
 
 class Tabled:
     """Base of records that write themselves as CSV, or as a data frame; they answer `table()`."""
@@ -183,7 +181,8 @@ def _separator(lines: Sequence[tuple[int, str]], source: str) -> str:
 
 def _elsewhere(lines: Sequence[tuple[int, str]], header: Header) -> str:
     """Where a header stands below the first line, or its units do below it; empty where neither does."""
-    for k, (number, line) in enumerate(lines[: min(MOST_ABOVE, len(lines) - 1)]):
+    # a header may stand below 99 lines
+    for k, (number, line) in enumerate(lines[: min(99, len(lines) - 1)]):
         separator = _separator(lines[k : k + 2], "")
         cells, below = (cells_of(one, "", separator) for one in (line, lines[k + 1][1]))
         written = _with_units(cells, below)

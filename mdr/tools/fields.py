@@ -57,6 +57,11 @@ def facts_of(field: Field[Any]) -> Facts:
     return found
 
 
+def fields_of(record: Any) -> tuple[str, ...]:
+    """Names of the fields that can be set in a record; none of what is no dataclass."""
+    return tuple(one.name for one in fields(record) if one.init) if is_dataclass(record) else ()
+
+
 def units_of(record: type[Any]) -> dict[str, str]:
     """The units of the fields of a record, which are its arguments."""
     return {one.name: facts_of(one).unit for one in fields(record) if one.init}

@@ -13,6 +13,7 @@ from contextvars import ContextVar
 from threading import Event
 from typing import TypeVar
 
+from mdr.tools.checks import positive
 from mdr.tools.compiling import TALLY
 
 T = TypeVar("T")
@@ -23,7 +24,6 @@ class Ended(Exception):
 
 
 PATIENCE = 2.0  #: s before the first word
-BETWEEN = 10.0  #: s between plain lines
 
 _deadline: ContextVar[float] = ContextVar("deadline", default=float("inf"))
 _watch: ContextVar[Callable[[], None] | None] = ContextVar("watch", default=None)
@@ -74,7 +74,8 @@ def time_limit(seconds: float | None) -> Iterator[None]:
 
     None sets none; an earlier outer limit stays.
     """
-    token = _deadline.set(min(_deadline.get(), float("inf") if seconds is None else TALLY.clock + seconds))
+    ends = float("inf") if seconds is None else TALLY.clock + positive("limit_s", seconds, "seconds")
+    token = _deadline.set(min(_deadline.get(), ends))
     try:
         yield
     finally:
@@ -103,7 +104,7 @@ class Ticker:
             return
         now = time.monotonic()
         if now > self.next and self.done != self.total:
-            self.next = now + BETWEEN
+            self.next = now + 10.0  # s, between plain lines
             print(f"{self.what}: {self.done}{self._rest(now)}", file=sys.stderr, flush=True)
 
     def _rest(self, now: float) -> str:

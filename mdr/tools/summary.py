@@ -10,7 +10,6 @@ import numpy as np
 
 Row = tuple[str, str, str]  #: name, value, meaning
 LEFT = 'style="text-align: left"'  #: notebooks set cells to the right
-MOST_DIGITS = 8  #: behind the point, of a number with an error
 
 
 class Summary(NamedTuple):
@@ -83,5 +82,6 @@ def with_error(value: float, error: float) -> str:
     if not (np.isfinite(value) and np.isfinite(error) and error > 0):
         return number(value)
     first, first_of_error = (np.floor(np.log10(one)) for one in (abs(value) or 10 * error, error))
-    digits = int(np.clip(max(2 - first, 1 - first_of_error), 0, MOST_DIGITS))  # the third, or the second of the error
+    # behind the point; of the value
+    digits = int(np.clip(max(2 - first, 1 - first_of_error), 0, 8))  # the third, or the second of the error
     return f"{value:.{digits}f} +- {error:.1e}"

@@ -19,6 +19,20 @@ def warn_outside(doubt: str) -> None:
     warnings.warn(doubt, PlausibilityWarning, stacklevel=level)
 
 
+def asked_from_outside() -> bool:
+    """Whether code outside the package called the public function that calls what asks this first."""
+    public = _past_wrappers(sys._getframe(3))
+    outside = _past_wrappers(public.f_back) if public is not None and is_ours(public) else public
+    return outside is not None and not is_ours(outside)
+
+
+def _past_wrappers(frame: FrameType | None) -> FrameType | None:
+    """The frame, or the first before it that is no decorator's."""
+    while frame is not None and frame.f_globals.get("__name__") in ("mdr.tools.memoise", "mdr.tools.keywords"):
+        frame = frame.f_back
+    return frame
+
+
 def is_ours(frame: FrameType) -> bool:
     """Whether a frame belongs to the package."""
     return str(frame.f_globals.get("__name__", "")).partition(".")[0] == __name__.partition(".")[0]

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.normal.vary import case_at
+from mdr.given.vary import case_at
 
 OMEGA = 300.0
 PUNCH, RUBBER = mdr.FlatPunch(a=1e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)

@@ -11,8 +11,9 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.closed_forms import paper
-from mdr.closed_forms.full_slip import full_slip, normal_force_harmonics
+from mdr.closed_forms.full_slip import normal_force_harmonics
 from mdr.normal.normal_force import mean_normal_force
+from validation.full_slip import full_slip
 
 # --- the normal force ---
 

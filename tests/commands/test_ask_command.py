@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.__main__ import main
-from mdr.files.case_files import read_said
+from mdr.given.case_file import read_said
 
 CASE = """
 mu_0 = 0.3

@@ -11,7 +11,7 @@ from conftest import contact
 
 import mdr
 from mdr.__main__ import main
-from mdr.files.case_files import read_case
+from mdr.given.case_file import read_case
 
 CASE = mdr.write_case(contact("cone", 10 / 3, 0.3, du_z=6e-6))
 DATA = "v_0 [mm/s], cof, error\n0.1, 0.40, 0.01\n0.4, 0.46, 0.01\n0.8, 0.49, 0.01\n1.6, 0.50, 0.01\n3.2, 0.5, 0.01\n"

@@ -21,7 +21,8 @@ from PIL import Image
 import mdr
 from mdr.__main__ import main
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.files.case_files import parse_case, read_case, write_case
+from mdr.files.case_files import write_case
+from mdr.given.case_file import parse_case, read_case
 from mdr.tools.provenance import versions
 
 EXAMPLE = str(Path(__file__).parents[2] / "docs" / "example.toml")

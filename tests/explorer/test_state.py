@@ -14,7 +14,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr.case.contact import KINDS
-from mdr.case.units import facts_at
+from mdr.case.paths import GROUPS, SET, facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest
 from mdr.explorer.lines import line_of, suits
@@ -23,7 +23,6 @@ from mdr.explorer.pictures import pictures_of
 from mdr.explorer.springs import DIRECTIONS, frames_of, map_of
 from mdr.explorer.state import State, group_values
 from mdr.files.examples import PARTS, example, example_file
-from mdr.normal.vary import GROUPS
 from mdr.plots import MODES
 from mdr.plots.side_view import SideView
 from mdr.tools.notation import UNITS
@@ -119,7 +118,7 @@ def test_every_field_has_a_control_with_its_unit_and_meaning(state, in_groups):
         for field in fields(getattr(state.case, slot))
         if field.name not in HIDDEN
     }
-    groups = {GROUPS[path] for path in group_values(state.case)} if in_groups else set()
+    groups = {SET[path].fields[0] for path in group_values(state.case)} if in_groups else set()
     paths = {control.path for control in found}
     assert given - groups <= paths
     assert not groups & paths

@@ -11,7 +11,9 @@ import pytest
 
 import mdr
 from mdr.files import case_files, own_records
-from mdr.files.case_files import CaseFileError, parse_case, read_case, write_case
+from mdr.files.case_files import write_case
+from mdr.files.toml_text import CaseFileError
+from mdr.given.case_file import parse_case, read_case
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "example.toml"
 GOOD = write_case(read_case(EXAMPLE))

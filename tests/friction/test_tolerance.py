@@ -9,9 +9,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.files.case_files import case_of
 from mdr.friction import tolerance as module
 from mdr.friction.cof_curve import friction_at
+from mdr.given.case_file import case_of
 from mdr.tools.notation import shown
 
 TABLES = {

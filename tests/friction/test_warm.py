@@ -28,7 +28,8 @@ def test_after_the_kinds_of_run_a_run_compiles_nothing(material):
     for pull in warm.PULLS:
         case = mdr.SlidingContact(mdr.Cone(theta=0.02), material, 0.3, warm.MOTION, pull)
         mdr.slide(case, 0.3 * mdr.full_slip_critical_velocity(case), accuracy=1e-3)
-    for shake, pull in product((warm.ACROSS, mdr.InPlaneOscillation(omega=628.0, du_x=2e-6)), warm.PULLS[:2]):
+    along = mdr.InPlaneOscillation(omega=2 * warm.MOTION.omega, du_x=2e-6)
+    for shake, pull in product((warm.ACROSS, along), warm.PULLS[:2]):
         shaken = mdr.SlidingContact(mdr.Cone(theta=0.02), material, 0.3, warm.MOTION, pull, shake)
         mdr.cof_curve(shaken, [1e-3], accuracy=1e-3)
     assert all_compiled() == before

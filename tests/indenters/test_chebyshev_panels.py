@@ -12,7 +12,8 @@ from numpy.testing import assert_allclose
 from scipy.special import struve
 
 from mdr.indenters import Paraboloid, Profile
-from mdr.indenters.base import Indenter, image_of
+from mdr.indenters.base import Indenter
+from mdr.indenters.mapped import image_of
 from mdr.indenters.mapping.chebyshev_panels import cuts
 
 B, R, T = 1e-3, 5e-3, math.tan(0.05)

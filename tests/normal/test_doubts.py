@@ -9,8 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.case.doubts import doubts_of, edge
 from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example
-from mdr.normal.doubts import doubts_of, edge
 
 USUAL = mdr.read_case(Path(__file__).parents[2] / "docs/example.toml")
 SOFT = mdr.KelvinVoigt(E=3.0, nu=0.5, tau=1e-3)  # 3 for 3 MPa

@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.files.case_files import case_of
+from mdr.given.case_file import case_of
+from mdr.given.vary import case_at, still_held
 from mdr.normal.normal_force import mean_normal_force
-from mdr.normal.vary import case_at, still_held
 from mdr.studies.study_files import study_from
 
 #: a horn on plastic at 20 kHz, whose answers under a true weight were found by hand

@@ -6,9 +6,9 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.closed_forms.full_slip import full_slip
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import N_STEPS, normal_cycle
+from validation.full_slip import full_slip
 
 
 @pytest.mark.parametrize("T", [0.0, 0.3, 3.0])

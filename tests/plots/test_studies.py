@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.plots import studies
-from mdr.studies.points import Status
+from mdr.tools.status import Status
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt

@@ -9,7 +9,7 @@ from grids import BODY, RIGID
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.normal.vary import case_at
+from mdr.given.vary import case_at
 from mdr.studies.points import velocities_of
 
 PARTS = {

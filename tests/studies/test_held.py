@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.files.case_files import case_of
+from mdr.given.case_file import case_of
 from mdr.studies import CATALOGUE
 from mdr.studies.study_files import study_from
 

@@ -9,9 +9,10 @@ from grids import BODY, COARSE, RIGID, SHAPES, work
 from numpy.testing import assert_array_equal
 
 import mdr
-from mdr.studies.points import Status, compute, reason_of
+from mdr.studies.points import compute, reason_of
 from mdr.studies.quantities import Quantity
 from mdr.tools.progress import Ended
+from mdr.tools.status import Status
 
 
 def test_values_are_those_of_direct_calls():

@@ -15,9 +15,10 @@ from grids import BODY, RIGID, SHAPES, depth
 
 import mdr
 from mdr.studies import engine, specification
-from mdr.studies.points import Points, Status
+from mdr.studies.points import Points
 from mdr.studies.store import Store, _packed
 from mdr.tools.sources import texts
+from mdr.tools.status import Status
 
 SHAKE = mdr.InPlaneOscillation(omega=300.0, du_x=1e-6)
 AXES = {"mu_0": np.linspace(0.1, 0.9, 24).tolist(), "indenter": SHAPES[:2]}

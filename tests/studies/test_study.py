@@ -12,7 +12,7 @@ from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.studies.formats import packed
-from mdr.studies.points import Status
+from mdr.tools.status import Status
 
 AXES = {"v_0/v_c": [0.0, 0.5, 1.1], "indenter": SHAPES, "oscillation.u_z0": [6e-6, -1e-3, -2e-3, 8e-6]}
 POINT = {"indenter": SHAPES[1], "v_0/v_c": 0.5, "oscillation.u_z0": 8e-6}

@@ -20,9 +20,9 @@ from numpy.testing import assert_array_equal
 
 import mdr
 from mdr.studies import engine
-from mdr.studies.points import Status
 from mdr.studies.store import Store
 from mdr.studies.work import units_of
+from mdr.tools.status import Status
 
 HERE = Path(__file__).parent
 MANY = {"mu_0": [0.1 + 0.001 * k for k in range(100)]}

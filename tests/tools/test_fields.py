@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.case.units import facts_at
+from mdr.case.paths import facts_at
 from mdr.tools import checks, fields
 
 

@@ -7,8 +7,8 @@ import pytest
 from conftest import contact, unit_of_velocity
 
 import mdr
-from mdr.closed_forms.full_slip import full_slip
 from mdr.closed_forms.rigid_pull import average_friction
+from validation.full_slip import full_slip
 
 CASE = contact("cone", 2.0)
 V_0 = 0.5 * unit_of_velocity(CASE)

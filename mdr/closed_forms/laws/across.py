@@ -12,7 +12,6 @@ from mdr.normal.followed_force import N_STEPS
 from mdr.normal.normal_force import normal_force
 from mdr.tools.checks import finite, instance, not_negative, positive
 
-TINY = 1e-300  #: of a square that is a zero
 FADES = 0.012  #: of mu_0 kappa omega u_z0, velocity over which `excess_across` fades at eta = 1; fitted
 STIFFER = 0.36  #: of beta²/kappa, by which coupling stiffens a contact; fitted
 
@@ -43,7 +42,7 @@ def rigid_across(r: float) -> float:
 
     r = finite("r", r)
     share = r / np.hypot(1.0, r)
-    return float(2 / np.pi * share * ellipkm1(max(share * share, TINY)))
+    return float(2 / np.pi * share * ellipkm1(max(share * share, 1e-300)))  # a square may underflow
 
 
 def lost_across(case: SlidingContact, v_0: float) -> float:

@@ -19,12 +19,6 @@ from mdr.indenters.flat_punch import FlatPunch
 from mdr.materials.kelvin_voigt import KelvinVoigt
 from mdr.tools.checks import between, instance, not_negative, positive
 
-REACH = 9.0  #: of rms, amplitudes above b that are left out beyond; for b > 5 that share of 5/b
-N_AMPLITUDES = 64
-KEPT = 1 / 3  #: of the mean depth, rms up to which contact is hardly ever lost
-GONE = 38.0  #: b from which on the loss is below the least float
-SMALL = 1e-3  #: relative amplitude of a sine on a flat punch, which keeps contact
-
 
 def random_loss(b: float, T: float = 0.0) -> float:
     """Mean lag [-] of a fast pull, in units of sigma_v²/sigma_a: friction that random vibration takes.
@@ -57,13 +51,14 @@ def random_loss(b: float, T: float = 0.0) -> float:
     0.0111
     """
     b, T = positive("b", b, "v_0/(mu_0 kappa sigma_v)"), not_negative("T", T, "tau sigma_a/sigma_v")
-    if b >= GONE:
+    if b >= 38.0:  # the loss is below the least float
         return 0.0
-    node, weight = np.polynomial.legendre.leggauss(N_AMPLITUDES)
-    most = np.sqrt(REACH / max(1.0, b / 5))
+    node, weight = np.polynomial.legendre.leggauss(64)
+    # amplitudes beyond 9 rms above b are left out; for b > 5 beyond that share of 5/b
+    most = np.sqrt(9.0 / max(1.0, b / 5))
     root = most * (node + 1) / 2  # psi begins with a power of x - b, 2 or 3/2
     x = b + root**2
-    alpha = SMALL / np.hypot(1, T)
+    alpha = 1e-3 / np.hypot(1, T)  # of a sine on a flat punch, which keeps contact
     case = SlidingContact(FlatPunch(1.0), KelvinVoigt(1.0, 0.5, T), 1.0, NormalOscillation(1.0, alpha, 1.0))
     psi = (1 - average_friction(case, case.unit_velocity * b / x).cof) / alpha
     return float(most / 2 * weight @ (2 * root * x**2 * np.exp(-(x**2) / 2) * psi))
@@ -176,7 +171,7 @@ def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> flo
             "the law is that of a rigid pull on an elastic or Kelvin material at a positive mean depth, got "
             f"{case.pull!r}, shake = {case.shake!r}, {case.material!r}, u_z0 = {depth:.6g} m: use random_cof"
         )
-    if not spectrum.rms <= KEPT * depth:
+    if not spectrum.rms <= 1 / 3 * depth:  # above, contact is lost now and then
         raise ValueError(
             f"the rms of the spectrum, {spectrum.rms:.4g} m, is more than a third of the mean depth of {depth:.4g} m: "
             "the contact is lost now and then, which the law leaves out; use random_cof"

@@ -23,11 +23,6 @@ from mdr.tools.checks import FieldError, FieldTypeError, count, finite_array, no
 TOLERANCE = 1e-11  #: of a parabola in the place of a piece, over A_z; Psi is off by at most 4 times as much
 FIRST = 100  #: pieces of a period, of five samples each, before the first is halved
 NARROWEST = 4e-15  #: piece of a period that is a jump if it is still no parabola
-SHORT = 1e-6  #: of a period; on pieces that are shorter slopes are rounding
-MOST_PIECES = 2**20
-STARTS = 4  #: random ones of a search for the best waveform
-MOST_HARMONICS = 1000
-SAMPLES = 512  #: of a waveform during that search
 
 
 def waveform_loss(w: Motion | Callable[[Array], ArrayLike] | ArrayLike, beta: ArrayLike) -> Any:
@@ -98,7 +93,7 @@ def waveform_critical(w: Motion | Callable[[Array], ArrayLike] | ArrayLike) -> f
     rise = values[:, -1] - values[:, 0]
     if max(rise[width < NARROWEST].max(initial=0.0), values[0, 0] - values[-1, -1]) > 2 * TOLERANCE:
         return np.inf
-    wide = width > min(SHORT, 0.5 * width.max())
+    wide = width > min(1e-6, 0.5 * width.max())  # slopes on shorter pieces are rounding
     return float(np.max(np.diff(values[wide]) / (0.25 * width[wide, None])))
 
 
@@ -168,7 +163,7 @@ def best_waveform(n_harmonics: int, beta: float) -> tuple[float, Array, Array]:
     from scipy.optimize import minimize
 
     N, beta = _harmonics(n_harmonics), not_negative("beta", beta, "velocity")
-    phase = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
+    phase = 2 * np.pi * np.arange(512) / 512
 
     def kept(zeros: Array) -> float:
         return -float(waveform_loss(np.prod(1 - np.cos(phase[:, None] - np.r_[0.0, zeros]), axis=1), beta))
@@ -179,7 +174,7 @@ def best_waveform(n_harmonics: int, beta: float) -> tuple[float, Array, Array]:
         steep[1:] - steep[0],
         equal,
         *(share * equal for share in (0.3, 0.6, 0.9)),
-        *rng.uniform(0, 2 * np.pi, (STARTS, N - 1)),
+        *rng.uniform(0, 2 * np.pi, (4, N - 1)),  # four random starts
     ]
     knobs = {"xatol": 1e-5, "fatol": 1e-9, "maxfev": 300 * N}
     found = [minimize(kept, start, method="Nelder-Mead", options=knobs) for start in starts if N > 1]
@@ -193,8 +188,8 @@ def best_waveform(n_harmonics: int, beta: float) -> tuple[float, Array, Array]:
 def _harmonics(n: int) -> int:
     """A number of harmonics."""
     n = count("n_harmonics", n, 1)
-    if n > MOST_HARMONICS:
-        raise FieldError(f"n_harmonics must be at most {MOST_HARMONICS}, got {n}", "n_harmonics")
+    if n > 1000:
+        raise FieldError(f"n_harmonics must be at most 1000, got {n}", "n_harmonics")
     return n
 
 
@@ -266,7 +261,7 @@ def _refined(w: Callable[[Array], ArrayLike]) -> _Row:
         done.append(np.column_stack([low, width, values])[good])
         low, width = low[~good], 0.5 * width[~good]
         low, width = np.concatenate([low, low + width]), np.tile(width, 2)
-        if low.size + sum(map(len, done)) > MOST_PIECES:
+        if low.size + sum(map(len, done)) > 2**20:
             raise FieldError("w is too rough: it is no parabola on a millionth of the period; give samples of it", "w")
     rows = np.concatenate(done)
     rows = rows[np.argsort(rows[:, 0])]

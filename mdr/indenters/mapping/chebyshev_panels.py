@@ -23,8 +23,6 @@ from mdr.indenters.mapping import abel, inversion
 from mdr.indenters.mapping.quadrature import N_HALVINGS, Function, Rule, chebyshev_fit, double_exponential, in_chunks
 from mdr.tools.arrays import EXACT, Array
 
-N_NODES = 24  #: the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
-
 Edges = tuple[float, ...]
 Integral = Callable[[Function, Edges, Array, Rule | None], Array]  #: one that leads from f to a height over x
 
@@ -151,7 +149,8 @@ class Chart:
         if at_kink:
             power = 2.0 if self.integral is abel.area_from_f else 1.0
         panel = Panel(low, high, at_kink, g_low if at_kink else 0.0, power)
-        nodes, to_coefficients = chebyshev_fit(N_NODES)
+        # the tip is three half-widths away, 5.8**-24 = 4e-19; in t kinks before are at ±i, 4.6**-24 = 1e-16
+        nodes, to_coefficients = chebyshev_fit(24)
         t = (nodes + 1) / 2
         x = low + (high - low) * (t * t if at_kink else t)
         g, factor = self.direct(x), panel.factor(x)

@@ -72,10 +72,10 @@ def _not_the_force(d: Array, a: Array, V: Array, spare: float) -> str:
     )
 
 
-def bends_down(f: Array, r: Array, most: int = 4) -> Array:
+def bends_down(f: Array, r: Array) -> Array:
     """Radii, of r (n,), behind where r f' falls most: where it rises g does, as dg/dx = ∫₀^{π/2} (r f')' dt."""
     turn = np.diff((r[1:] + r[:-1]) / 2 * np.diff(f))
-    deepest = np.argsort(turn)[:most]
+    deepest = np.argsort(turn)[:4]
     deepest = deepest[turn[deepest] < -SAME * np.max(np.abs(turn))]
     return np.unique(r[np.minimum(deepest[:, None] + np.arange(1, 5), r.size - 1)])
 
@@ -146,14 +146,12 @@ def noise_of(x: Array, y: Array) -> float:
     return float(np.median(np.abs(off) / np.sqrt(sum(share**2 for share in shares))) / 0.6745)
 
 
-FEW = 300  #: points through which a spline that follows the noise is found at once; its time goes as their square
-
-
 def why_noisy(smoothing: float, x: Array, y: Array, unit: str) -> str:
     """What is wrong with a smoothing above 0 of many points (x, y) by which a spline follows their noise, before it
     does; empty where nothing is. The noise is known to 1.7/√n of it, of which four times are left out.
     """
-    if x.size < FEW or not 0 < smoothing < (1 - 7 / np.sqrt(x.size)) * noise_of(x, y):
+    few = 300  # through these a spline that follows the noise is found at once; its time goes as their square
+    if x.size < few or not 0 < smoothing < (1 - 7 / np.sqrt(x.size)) * noise_of(x, y):
         return ""
     return f"smoothing = {smoothing:.6g} {unit} is less than the noise of the points; without it the spline meets each"
 
@@ -161,7 +159,8 @@ def why_noisy(smoothing: float, x: Array, y: Array, unit: str) -> str:
 def told_smoothing(passes: Callable[[float], bool], least: float, x: Array, y: Array, unit: str) -> str:
     """What to say of a smoothing above ``least`` of points (x, y): the first of some that passes, or that none does."""
     noise, last = noise_of(x, y), least
-    for smoothing in max(1.2 * least, (0.5 if x.size < FEW else 1.1) * noise) * 1.5 ** np.arange(12):
+    # points through which a spline that follows the noise is found at once; its time goes as their square
+    for smoothing in max(1.2 * least, (0.5 if x.size < 300 else 1.1) * noise) * 1.5 ** np.arange(12):
         if not 0 < smoothing < 0.3 * np.ptp(y):
             break
         last = float(f"{smoothing:.2g}")

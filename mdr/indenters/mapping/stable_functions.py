@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from mdr.tools.arrays import Array
 
 GAUSS = np.polynomial.legendre.leggauss(14)  #: for a quarter turn of waves no shorter than a third of a turn
-N_TERMS = 30  #: of a power series in w, |w| <= 1/4: 0.25**30 = 9e-19
 
 
 def leg(x: ArrayLike, b: ArrayLike) -> Array:
@@ -77,6 +76,6 @@ def conic_area(u: ArrayLike, w: ArrayLike, angle: ArrayLike) -> Array:
     u, w = np.asarray(u, dtype=np.float64), np.asarray(w, dtype=np.float64)
     small = np.clip(w, -0.25, 0.25)
     series = np.zeros_like(u)
-    for j in range(N_TERMS - 1, -1, -1):
+    for j in reversed(range(30)):  # terms of a series in w, |w| <= 1/4: 0.25**30 = 9e-19
         series = 2 / ((2 * j + 1) * (2 * j + 3)) + small * series
     return np.where(np.abs(w) < 0.25, u * w * series, u - (1 - w) * angle)

@@ -1,73 +1,29 @@
 """From a rig to a case: what is set and read at an experiment, turned into the fields of a `SlidingContact`.
 
 Rigs have a load, a frequency in hertz, a loss tangent and a sled; a case has a depth, an angular frequency, a
-relaxation time, and one mass for each direction. `SETTINGS` are those that a case file may give in the place of fields:
-
-    [indenter]     theta_deg = 1.5     for theta [rad]
-    [material]     tan_delta = 0.2     for tau [s] of a KelvinVoigt: the loss tangent at the frequency of the case
-    [oscillation]  frequency = 50      for omega [rad/s], in Hz; so in [shake]
-    [oscillation]  load = 1.0          for F_z0 [N]; of a prescribed depth for u_z0, at which this load rests, or with
-                   hold = "load"       about which it is the mean load
+relaxation time, and one mass for each direction.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple
 
 from mdr.case.contact import SlidingContact
+from mdr.case.doubts import edge
 from mdr.case.in_plane import Shake
 from mdr.case.motion import ConstantLoad, LoadOscillation, Motion, NormalOscillation
+from mdr.case.paths import HOLD, SET, hold_of
 from mdr.case.pull import Pull, RigidPull, SpringPull
+from mdr.given.vary import contact_of, warn_of_load
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.materials.base import poisson_ratio_of
-from mdr.normal.doubts import edge
-from mdr.normal.mean_load import hold_of, warn_of_mean_loads
-from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
-from mdr.normal.vary import HOLD, RIG, angular, contact_of, fields_of, load_asked
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance, not_negative, positive
 from mdr.tools.keywords import offering
 from mdr.tools.notation import GRAVITY
 from mdr.tools.warned import warn_outside
-
-LONG = 10.0  #: wavelength over the width of the contact, from which on it is quasi-static
-
-
-class Setting(NamedTuple):
-    """What a file may give in the place of a field."""
-
-    paths: tuple[str, ...]  #: it stands for the first of these that a record has
-    unit: str
-    convert: Callable[[Any], float]
-    of: type[Any] = object  #: record that alone has it
-
-    def field_of(self, part: str, record: type[Any]) -> str | None:
-        """The field that it stands for in such a part of a case."""
-        known = [f"{part}.{field}" for field in fields_of(record)] if issubclass(record, self.of) else []
-        return next((path.partition(".")[2] for path in self.paths if path in known), None)
-
-
-SETTINGS = {
-    "theta_deg": Setting(
-        ("indenter.theta",), "deg", lambda angle: math.radians(positive("theta_deg", angle, "angle in degrees"))
-    ),
-    "tan_delta": Setting(
-        RIG["tan_delta"], "-", lambda value: not_negative("tan_delta", value, "loss tangent"), KelvinVoigt
-    ),
-    "frequency": Setting(RIG["frequency"], "Hz", angular),
-    "load": Setting(RIG["load"], "N", lambda load: positive("load", load, "load in N")),
-}
-#: fields that other parts of the case decide about too: load and tan_delta hold for them in every case of a study
-OPEN = ("u_z0", "tau")
-
-
-def settings_of(part: str) -> dict[str, Setting]:
-    """What a file may give for the fields of a part."""
-    return {name: one for name, one in SETTINGS.items() if any(path.startswith(f"{part}.") for path in one.paths)}
 
 
 @offering
@@ -166,7 +122,7 @@ def rig(
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
     0.00215 m/s
     """
-    omega = angular(frequency)
+    omega = SET["frequency"].told("frequency", frequency)
     material = _lossy(material, tan_delta, omega)
     instance("indenter", indenter, Indenter)
     F_z0 = _load(load, load_grams)
@@ -195,8 +151,7 @@ def rig(
     parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
     settings = {"mu_0": mu_0, "load": F_z0} | ({} if hold is None else {HOLD: hold})
     case = contact_of(parts, settings)
-    if (asked := load_asked(settings, case)) is not None:
-        warn_of_mean_loads([(asked, mean_normal_force(case))])
+    warn_of_load(settings, case)
     if density is not None:
         _warn_of_waves(case, positive("density", density, "in kg/m³"))
     return case
@@ -220,7 +175,7 @@ def _load(load: float | None, load_grams: float | None) -> float:
     if (load is None) == (load_grams is None):
         raise ValueError("give the load once: load in N, or load_grams, the mass in g whose weight it is")
     if load is not None:
-        return SETTINGS["load"].convert(load)
+        return SET["load"].checked("load", load)
     return 1e-3 * GRAVITY * positive("load_grams", load_grams, "in g")
 
 
@@ -258,12 +213,10 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
 
 def _held(hold: str | None, is_driven: bool) -> str | None:
     """What stays of a driven depth, where that is said."""
-    if hold is None:
-        return None
-    if not is_driven:
+    if hold is not None and not is_driven:
         hold_of(hold)
         raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
-    return hold_of(hold)
+    return None if hold is None else hold_of(hold)
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:
@@ -273,8 +226,8 @@ def _warn_of_waves(case: SlidingContact, density: float) -> None:
     stiffening = abs(complex(case.material.dynamic_modulus(case.omega))) / case.material.E_star
     G = case.material.G_star * (2 - poisson_ratio_of(case.material.mindlin_ratio)) / 4 * stiffening
     wavelength = 2 * math.pi / case.omega * math.sqrt(G / density)
-    if wavelength < LONG * width:
+    if wavelength < 10 * width:
         warn_outside(
             f"shear waves in the half-space are about {wavelength:.3g} m long at this frequency, and the contact is "
-            f"{width:.3g} m wide: the springs are quasi-static, which wants waves {LONG:g} times as long"
+            f"{width:.3g} m wide: the springs are quasi-static, which wants waves 10 times as long"
         )

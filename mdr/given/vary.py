@@ -1,55 +1,36 @@
-"""A case with other values at some of its paths: fields first, then the dimensionless groups in their order.
+"""A case with other values at some of its paths (`mdr.case.paths`): fields first, then what sets them, in order.
 
-A path is a field ("mu_0", "indenter", "material.tau") or a group: alpha = du_z/u_z0 sets oscillation.du_z, chi =
-du_x/(mu_0 kappa u_z0) shake.du_x, eta = du_y/(mu_0 kappa u_z0) shake.du_y, T = omega tau material.tau, k_x/k_xc
-pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m. Or it is what a rig is set to: load [N] sets F_z0, or of a
-prescribed depth u_z0, at which this load rests, or beside hold = "load" about which it is the mean load; frequency [Hz]
-sets omega of all that moves; and tan_delta = omega tau sets material.tau.
+alpha = du_z/u_z0 sets oscillation.du_z, chi = du_x/(mu_0 kappa u_z0) shake.du_x, eta = du_y/(mu_0 kappa u_z0)
+shake.du_y, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m. Of what a rig
+is set to, load [N] sets F_z0, or of a prescribed depth u_z0, at which this load rests, or beside hold = "load" about
+which it is the mean load; frequency [Hz] sets omega of all that moves; and tan_delta = omega tau sets material.tau.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
-refers to is solved for under a load, which is why this stands beside the normal problem.
+refers to is solved for under a load, which is why this stands above the normal problem.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.motion import Motion
+from mdr.case.paths import HOLD, RIG, SET, fields_set, hold_of
+from mdr.given.mean_load import under_mean_load, warn_of_mean_loads
 from mdr.materials import KelvinVoigt
 from mdr.normal.load_control import static_depth, static_load
-from mdr.normal.mean_load import hold_of, under_mean_load
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import not_negative, positive
+from mdr.tools.checks import positive
+from mdr.tools.fields import fields_of
 
-GROUPS = {
-    "alpha": "oscillation.du_z",
-    "chi": "shake.du_x",
-    "eta": "shake.du_y",
-    "T": "material.tau",
-    "k_x/k_xc": "pull.k_x",
-    "omega_0/omega": "pull.m",
-}
-#: what rigs are set to, and the fields, of which one (load) or all that are there (frequency) are set
-RIG = {
-    "load": ("oscillation.F_z0", "oscillation.u_z0"),
-    "frequency": ("oscillation.omega", "shake.omega"),
-    "tan_delta": ("material.tau",),
-}
-HOLD = "hold"  #: beside a load: whether the depth at which it rests stays, or the mean load
 MOVING = ("oscillation", "shake")
-
-
-def fields_set(path: str) -> tuple[str, ...]:
-    """The fields, of which one or all are set by a path."""
-    return RIG.get(path, (GROUPS.get(path, path),))
 
 
 def still_held(held: Mapping[str, Any], paths: Iterable[str]) -> dict[str, Any]:
@@ -61,7 +42,7 @@ def still_held(held: Mapping[str, Any], paths: Iterable[str]) -> dict[str, Any]:
         raise ValueError(f"hold says what stays of a load: hold {{'load': ..., 'hold': {held[HOLD]!r}}}")
     taken = {field for path in paths for field in fields_set(path)}
     kept: dict[str, Any] = {
-        path: positive(path, value) if path != "tan_delta" else not_negative(path, value)
+        path: SET[path].checked(path, value)
         for path, value in held.items()
         if path != HOLD and not any(taken & {field, field.partition(".")[0]} for field in fields_set(path))
     }
@@ -74,6 +55,12 @@ def load_asked(settings: Mapping[str, Any], case: SlidingContact) -> float | Non
     """The load [N] whose depth at rest these settings gave the case; None where no depth is driven, or hold said."""
     driven = case.oscillation.knows_depth and HOLD not in settings
     return settings.get("load") if driven else None
+
+
+def warn_of_load(settings: Mapping[str, Any], case: SlidingContact, where: str = "") -> None:
+    """Warn where the mean load of the case is another than the load whose depth at rest these settings gave it."""
+    if (asked := load_asked(settings, case)) is not None:
+        warn_of_mean_loads([(asked, mean_normal_force(case))], where)
 
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
@@ -96,12 +83,12 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
             changes[slot][field] = value
     if "frequency" in settings:
         _one_omega("frequency", *map(parts.get, MOVING))
-        omega = angular(settings["frequency"])
+        omega = SET["frequency"].told("frequency", settings["frequency"])
         for slot in MOVING:
             if "omega" in fields_of(parts.get(slot)):
                 changes[slot]["omega"] = omega
     if "load" in settings:
-        load, hold = positive("load", settings["load"], "mean load in N"), hold_of(settings.get(HOLD, "depth"))
+        load, hold = SET["load"].checked("load", settings["load"]), hold_of(settings.get(HOLD, "depth"))
         if "F_z0" in fields_of(parts["oscillation"]):
             changes["oscillation"]["F_z0"] = load
         else:
@@ -115,22 +102,9 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
     contact = SlidingContact(mu_0=settings["mu_0"], **{slot: changed(slot) for slot in parts})
-    if "tan_delta" in settings:
-        if not isinstance(material := contact.material, KelvinVoigt):
-            raise ValueError(f"tan_delta is of KelvinVoigt alone, and the material is {type(material).__name__}")
-        tan_delta = not_negative("tan_delta", settings["tan_delta"], "loss tangent")
-        contact = _with(contact, "T", tan_delta / _one_omega("tan_delta", contact.oscillation, contact.shake))
-    if "T" in settings:
-        contact = _with(contact, "T", settings["T"] / contact.omega)
-    for group, way in (("chi", "du_x"), ("eta", "du_y")):
-        if group in settings:
-            contact = _shaken_by(contact, group, way, settings[group])
-    if "k_x/k_xc" in settings:
-        contact = _with(contact, "k_x/k_xc", settings["k_x/k_xc"] * _stiffness(contact))
-    if "omega_0/omega" in settings:
-        _require_field("omega_0/omega", contact.pull, "k_x")
-        omega_0 = positive("omega_0/omega", settings["omega_0/omega"]) * contact.omega
-        contact = _with(contact, "omega_0/omega", contact.pull.coefficients[2] / omega_0**2)
+    for path, field_of in _FIELD_OF.items():
+        if path in settings:
+            contact = _with(contact, path, field_of(contact, path, settings[path]))
     return contact
 
 
@@ -154,40 +128,90 @@ def value_at(case: SlidingContact, path: str, hold: str = "depth") -> Any:
     Infinite where there is no spring, mass or depth for it. Raises ValueError where the shape does not carry the load,
     and KeyError or AttributeError for what is no path.
     """
-    if path in GROUPS:
-        return _group(case, path)
-    if path in RIG:
-        return mean_normal_force(case) if path == "load" and hold == "load" else _setting(case, path)
+    if path == "load" and hold == "load":
+        return mean_normal_force(case)
+    if path in _VALUE_OF:
+        return _VALUE_OF[path](case)
     slot, _, field = path.rpartition(".")
     return getattr(getattr(case, slot) if slot else case, field)
 
 
-def _group(case: SlidingContact, path: str) -> float:
+# --- there: the field that a path sets in a contact ---
+
+
+def _tau(contact: SlidingContact, path: str, value: Any) -> float:
     if path == "T":
-        return case.T
-    if path == "alpha":
-        return resolved(case).alpha
-    if path == "omega_0/omega":
-        return case.pull.omega_0 / case.omega
-    known = at_rest(case)
-    if path in ("chi", "eta"):
-        return float(getattr(known, path))
-    return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
+        return float(value / contact.omega)
+    if not isinstance(contact.material, KelvinVoigt):
+        raise ValueError(f"tan_delta is of KelvinVoigt alone, and the material is {type(contact.material).__name__}")
+    tan_delta = SET[path].checked(path, value)
+    return tan_delta / _one_omega(path, contact.oscillation, contact.shake)
 
 
-def _setting(case: SlidingContact, path: str) -> float:
-    """What a rig is set to that makes this case."""
+def _amplitude(contact: SlidingContact, path: str, value: Any) -> float:
+    """An amplitude of the shake, over the deflection at which springs slip."""
+    if value == 0:
+        return 0.0
+    unit = value_at(_with(contact, path, 1.0), path)
+    if not np.isfinite(unit):
+        way = fields_set(path)[0].partition(".")[2]
+        raise ValueError(
+            f"{path}: the contact has no mean depth u_z0 > 0, which {path} = {way}/(mu_0 kappa u_z0) refers to"
+        )
+    return float(value / unit)
+
+
+def _stiffness(contact: SlidingContact, path: str, value: Any) -> float:
+    k_xc = at_rest(contact).k_xc
+    if k_xc == 0:
+        raise ValueError(f"{path}: the contact has no stiffness at its mean depth, which a ratio could refer to")
+    return float(value * k_xc)
+
+
+def _mass(contact: SlidingContact, path: str, value: Any) -> float:
+    _require_field(path, contact.pull, "k_x")
+    return float(contact.pull.coefficients[2] / (positive(path, value) * contact.omega) ** 2)
+
+
+#: in the order in which they are set; frequency, load and alpha are set before there is a contact
+_FIELD_OF: dict[str, Callable[[SlidingContact, str, Any], float]] = {
+    "tan_delta": _tau,
+    "T": _tau,
+    "chi": _amplitude,
+    "eta": _amplitude,
+    "k_x/k_xc": _stiffness,
+    "omega_0/omega": _mass,
+}
+
+# --- and back ---
+
+
+def _load(case: SlidingContact) -> float:
     motion: Any = as_given(case).oscillation
-    if path != "load":
-        omega = _one_omega(path, motion, case.shake)
-        return omega / (2 * math.pi) if path == "frequency" else omega * float(getattr(case.material, "tau", 0.0))
     load = getattr(motion, "F_z0", None)
     return static_load(case.indenter, case.material, motion.u_z0) if load is None else float(load)
 
 
-def angular(frequency: Any) -> float:
-    """Angular frequency [rad/s] of a frequency [Hz]."""
-    return 2 * math.pi * positive("frequency", frequency, "in Hz")
+def _stiffness_ratio(case: SlidingContact) -> float:
+    known = at_rest(case)
+    return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
+
+
+_VALUE_OF: dict[str, Callable[[SlidingContact], float]] = {
+    "load": _load,
+    "frequency": lambda case: _common_omega(case, "frequency") / (2 * math.pi),
+    "tan_delta": lambda case: _common_omega(case, "tan_delta") * float(getattr(case.material, "tau", 0.0)),
+    "alpha": lambda case: resolved(case).alpha,
+    "T": lambda case: case.T,
+    "chi": lambda case: at_rest(case).chi,
+    "eta": lambda case: at_rest(case).eta,
+    "k_x/k_xc": _stiffness_ratio,
+    "omega_0/omega": lambda case: case.pull.omega_0 / case.omega,
+}
+
+
+def _common_omega(case: SlidingContact, path: str) -> float:
+    return _one_omega(path, as_given(case).oscillation, case.shake)
 
 
 def _one_omega(path: str, *moving: Any) -> float:
@@ -201,11 +225,6 @@ def _one_omega(path: str, *moving: Any) -> float:
     return float(found[0])
 
 
-def fields_of(record: Any) -> tuple[str, ...]:
-    """Names of the fields that can be set in a record; none of what is no dataclass."""
-    return tuple(one.name for one in fields(record) if one.init) if is_dataclass(record) else ()
-
-
 def _require_field(path: str, record: Any, field: str) -> None:
     if record is None:
         raise ValueError(f"{path}: nothing shakes in the plane; give the case a shake")
@@ -213,29 +232,9 @@ def _require_field(path: str, record: Any, field: str) -> None:
         raise ValueError(f"{path}: {type(record).__name__} has no {field}")
 
 
-def _with(contact: SlidingContact, group: str, value: float) -> SlidingContact:
-    """The contact with the field that a group sets."""
-    slot, _, field = GROUPS[group].partition(".")
+def _with(contact: SlidingContact, path: str, value: float) -> SlidingContact:
+    """The contact with the field that a path sets."""
+    slot, _, field = fields_set(path)[0].partition(".")
     record = getattr(contact, slot)
-    _require_field(group, record, field)
+    _require_field(path, record, field)
     return replace(contact, **{slot: replace(record, **{field: value})})
-
-
-def _shaken_by(contact: SlidingContact, group: str, way: str, value: float) -> SlidingContact:
-    """The contact with an amplitude of its shake, over the deflection at which springs slip."""
-    if value == 0:
-        return _with(contact, group, 0.0)
-    contact = _with(contact, group, 1.0)  # until the depth is known that it refers to
-    if not np.isfinite(unit := _group(contact, group)):
-        raise ValueError(
-            f"{group}: the contact has no mean depth u_z0 > 0, which {group} = {way}/(mu_0 kappa u_z0) refers to"
-        )
-    return _with(contact, group, value / unit)
-
-
-def _stiffness(contact: SlidingContact) -> float:
-    """k_xc [N/m], of a contact that has one."""
-    k_xc = at_rest(contact).k_xc
-    if k_xc == 0:
-        raise ValueError("k_x/k_xc: the contact has no stiffness at its mean depth, which a ratio could refer to")
-    return k_xc

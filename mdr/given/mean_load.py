@@ -7,22 +7,11 @@ the depth stays, `hold = "depth"`; of a weight the load, `hold = "load"`.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.normal_force import mean_normal_force
 from mdr.tools.arrays import EXACT, SAME
 from mdr.tools.warned import warn_outside
-
-HOLDS = ("depth", "load")
-MATTERS = 0.01  #: of the load, by which the mean load may differ without a word
-
-
-def hold_of(value: Any) -> str:
-    """What stays, "depth" or "load". ValueError for anything else."""
-    if value not in HOLDS:
-        raise ValueError(f'hold must be "depth" or "load", got {value!r}')
-    return str(value)
 
 
 def under_mean_load(at: Callable[[float], SlidingContact], load: float, least: float, rest: float) -> SlidingContact:
@@ -71,7 +60,8 @@ def _that_can_be(at: Callable[[float], SlidingContact], low: float, high: float)
 
 def warn_of_mean_loads(found: Sequence[tuple[float, float]], where: str = "") -> None:
     """Warn where a mean load [N] is another than the load [N] that was asked for: pairs (asked for, found)."""
-    off = [(mean / asked, asked, mean) for asked, mean in found if abs(mean / asked - 1) > MATTERS]
+    # a difference of less than 1 % is left without a word
+    off = [(mean / asked, asked, mean) for asked, mean in found if abs(mean / asked - 1) > 0.01]
     if not off:
         return
     ratio, asked, mean = max(off, key=lambda one: abs(one[0] - 1))
