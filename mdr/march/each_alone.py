@@ -1,15 +1,23 @@
 """The periodic state of springs under a rigid pull, which know nothing of each other: each solved for by itself.
 
-Newton's method on the map of a period, for all springs at once: the derivative of each by its own extensions and arms
-comes from as many periods as it has of these, but for arms that a period forgets. Friction makes the map non-expansive
-(periodic_orbit.py), so that a step which does not make the change of a spring smaller is no gain, and this spring is
-marched on instead.
+Slow arms hardly move in a period, and friction hardly feels them: it sees the force, and two motions of a spring under
+the same force differ by what relaxes without force, in the modes of the material (law.py). So what a period has changed
+is a first term of a geometric series in each mode; its sum, the *creep*, is what would come of it under this force.
+With arms, springs go there first, in one period each time.
+
+Newton's method on the map of a period follows, for all springs at once: the derivative of each by its own extensions
+and arms comes from as many periods as it has of these, but for arms that a period forgets. A step which does not make
+the creep of a spring smaller is no gain, and this spring goes to where it would creep instead.
+
+A march misses a little of the slip, so that its periodic state may lie a little outside of friction: what a step of the
+search is kept within is wider.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from mdr.march.dimensionless import ScaledContact
 from mdr.march.orbit_search import FORGOTTEN, Orbit
 from mdr.march.steady_state import Settling
 from mdr.march.stepper import MarchState, Stepper
@@ -21,6 +29,9 @@ PUSH = 1e-6  #: displacement that tells the derivative, over the greatest compre
 FLAT = 1e-9  #: share of itself by which a spring is taken to forget in a period, where it forgets nothing
 SHORTER, SHORTEST = 0.25, 0.01  #: shares of a step that is no gain, which are tried
 BEFORE = 0.01  #: part of the tolerance at which it ends
+CREEPS = 12  #: periods at most in which springs with arms go to where they creep; in most cases six do
+SHRINKS = 0.5  #: share of the last move that the next one may have, for what is still to come to be known
+WIDER = 0.1  #: of the greatest compression: how far outside of friction a step may take a spring
 
 
 def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
@@ -30,7 +41,20 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
     lasting = np.tile(np.r_[True, np.array(scaled.rheology.theta) > FORGOTTEN], scaled.ways)
     roots = np.sqrt(np.tile(np.r_[1.0, scaled.rheology.rho], scaled.ways))[:, None]
     farthest = float(start.s[0].max())
-    x = _inside(stepper, _rows(start.e), start)
+    creep = _creep(scaled)
+    inside = _Inside(start.s[0], WIDER * farthest, scaled.ways)
+    x, moves, enough = inside(_rows(start.e)), [], BEFORE * stepper.tolerance * stepper.mean_F_z
+    for _ in range(CREEPS if scaled.rheology.rho else 0):
+        if time_is_over():
+            return None
+        move = creep @ (_marched(stepper, x, start) - x)
+        moves.append(float(_length(roots * move) @ w))
+        if not np.isfinite(moves[-1]):
+            return None
+        x = inside(x + move)
+        slow = moves[-1] / max(moves[-2], 1e-300) if len(moves) > 1 else 1.0
+        if slow <= SHRINKS and moves[-1] / (1 - slow) <= enough:  # what is to come is less than a last move
+            return _found(stepper, _state(x, start), moves[-1] / (1 - slow))
     before: Array = np.full(n, np.inf)
     part = np.ones(n)
     last = after = x
@@ -39,14 +63,16 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
         if time_is_over():
             return None
         image = _marched(stepper, x, start)
-        change = _length(roots * (image - x))
+        move = creep @ (image - x)
+        change = _length(roots * move)
         worse = ~(change <= before)
         if worse.any():  # less of that step, and at last none: on to where it was marched to
             part = np.where(worse, SHORTER * part, 1.0)
-            shorter = np.where(part >= SHORTEST, _inside(stepper, last + part * step, start), after)
+            shorter = np.where(part >= SHORTEST, inside(last + part * step), after)
             x = np.where(worse, shorter, x)
             image = _marched(stepper, x, start)
-            change = np.where(worse & (part < SHORTEST), before, _length(roots * (image - x)))
+            move = creep @ (image - x)
+            change = np.where(worse & (part < SHORTEST), before, _length(roots * move))
             part = np.where(part < SHORTEST, 1.0, part)
         turn = np.zeros((n, len(x), len(x)))
         for k in np.flatnonzero(lasting):
@@ -54,21 +80,27 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
             push[k] = np.where(x[k] > 0, -PUSH, PUSH) * farthest
             turn[:, :, k] = ((_marched(stepper, x + push, start) - image) / push[k]).T
         moved = image - x
-        last, after, before = x, image, change
+        last, after, before = x, inside(x + move), change
         left = (1 + FLAT) * np.eye(len(x)) - turn
         step = np.asarray(np.linalg.solve(left, moved.T[:, :, None])[:, :, 0].T, dtype=float)
         off = float(_length(roots * step) @ w) / stepper.mean_F_z
         if not np.isfinite(off):
             return None
         if off <= BEFORE * stepper.tolerance:
-            end, periods = stepper.advance(state := _state(x, start), 1)
-            if stepper.late(state, end, 1) > stepper.tolerance:
-                return None
-            cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
-            return Orbit(end, periods, Settling(cof, 2 * off, True, "periodic", gain=1.0, across=cof_y))
+            return _found(stepper, _state(x, start), off * stepper.mean_F_z)
         step *= np.minimum(1.0, 2 * farthest / np.maximum(_length(step), 1e-300))
-        x = _inside(stepper, x + step, start)
+        x = inside(x + step)
     return None
+
+
+def _found(stepper: Stepper, state: MarchState, off: float) -> Orbit | None:
+    """The periodic state next to one that is off by so much; None where springs are late."""
+    end, periods = stepper.advance(state, 1)
+    if stepper.late(state, end, 1) > stepper.tolerance:
+        return None
+    cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
+    spread = 2 * off / stepper.mean_F_z
+    return Orbit(end, periods, Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y))
 
 
 def _length(x: Array) -> Array:
@@ -92,6 +124,24 @@ def _marched(stepper: Stepper, x: Array, like: MarchState) -> Array:
     return _rows(stepper.period(_state(x, like)).e)
 
 
-def _inside(stepper: Stepper, x: Array, like: MarchState) -> Array:
-    """The extensions within the friction of each spring."""
-    return _rows(stepper.within_friction(_state(x, like)).e)
+def _creep(scaled: ScaledContact) -> Array:
+    """What becomes of the changes of a period, of extensions and arms (n_x,), if the force goes on as it was."""
+    modes, n = scaled.law.modes, 1 + len(scaled.rheology.rho)
+    if modes is None:
+        return np.eye(scaled.ways * n)
+    left = np.exp(-2 * np.pi * modes.mu) / -np.expm1(-2 * np.pi * modes.mu)
+    of_one = np.eye(n) + modes.out @ (left[:, None] * modes.into)
+    return np.asarray(np.kron(np.eye(scaled.ways), of_one), dtype=float)
+
+
+class _Inside:
+    """Brings extensions to where friction lets them be, or a little further."""
+
+    def __init__(self, s: Array, wider: float, ways: int) -> None:
+        self.most, self.ways = s + wider, ways
+
+    def __call__(self, x: Array) -> Array:
+        x = x.copy()
+        along = x[:: len(x) // self.ways]
+        along *= np.minimum(1.0, self.most / np.maximum(_length(along), 1e-300))
+        return x

@@ -336,7 +336,9 @@ class _Springs:
         """Depth after a step from u at which the force is F [N]; v and a [m] are what rate and radius were before."""
 
         def excess(end: float) -> float:
-            return self.force(self.moved(s, u, end, step), end, (end - u) / step.times.h if step.times.h else 0.0)[0] - F
+            return (
+                self.force(self.moved(s, u, end, step), end, (end - u) / step.times.h if step.times.h else 0.0)[0] - F
+            )
 
         stiffness = 1 + float(self.rho.sum()) + (self.law.T / step.times.h if step.times.h else 0.0)
         return _root(excess, u + v * step.times.h, 2 * max(a, 1e-6 * self.row.x[-1]) * self.modulus * stiffness, off)

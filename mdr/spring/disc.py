@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, STICK
-from mdr.spring.dragged import EVEN, TINY, Slip, slides
+from mdr.spring.dragged import EVEN, TINY, Slip, slides, yielded
 from mdr.spring.energies import (
     FRICTION_LOSS,
     LEAST_SLIP,
@@ -36,6 +36,9 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 BEGINS = -1  #: the mode is still to be found
 MOST_HALVINGS = 60  #: in the search for the end of a mode
 SHORTEST = 1 / 256  #: part of a step that slip is followed for at once, however its leash changes
+SLOW = 8.0  #: times a time: of a dashpot beside arms, from which on it is slow in it
+SOON = 1e-5  #: part of a time: whether a spring on arms slips at once, or leaves the rim inward, is told there
+INSIDE = 10.0  #: times what is rounding, by which a force is told from one on the rim
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
 
 
@@ -172,14 +175,62 @@ def until_slip(f, R, t, tol):
 
 
 @_inline
+def held_excess(e, i, top, R, u, T, arms, tools):
+    """By how much the force of spring i on arms that sticks for a time u is outside its disc then: exact."""
+    fill(u, None, arms, tools.times, PART)
+    return excess(cubic(held_force(e, i, top.p, top.q, u, PART, T, tools, arms), u), R, u)
+
+
+@_inline
+def until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools):
+    """When spring i on arms slips, of which the cubic f over the time t leaves the disc after `until`; before that if
+    the cubic is wrong and it does not: arms that relax within t are no cubic.
+    """
+    until = max(until, SOON * t)
+    out, low, high, f_low, f_high = held_excess(e, i, top, R, until, T, arms, tools), 0.0, until, -0.0, 0.0
+    if until == SOON * t and out >= -tol and excess(f, R, 0.0) >= -tol:
+        return 0.0
+    if until == SOON * t and out < -tol:
+        return until
+    if out <= tol:
+        low, high, f_low, f_high = until, t, min(out, -0.0), excess(f, R, t)
+        if f_high <= tol or out > -tol:
+            return until
+    else:
+        f_low, f_high = min(excess(f, R, 0.0), -0.0), out
+        if f_low > -tol and leaves(f, R, 0.0) < 0.0:  # from the rim inward
+            for _ in range(MOST_HALVINGS):
+                part = 0.5 * high
+                out = held_excess(e, i, top, R, part, T, arms, tools)
+                if out < -tol:
+                    low, f_low = part, out
+                    break
+                if out > tol:
+                    f_high = out
+                high = part
+    b = Bracket(low, high, f_low, f_high, 0)
+    for _ in range(MOST_HALVINGS):
+        mid = between(b)
+        if b.high - b.low <= 1e-15 * t or not b.low < mid < b.high:
+            break
+        out = held_excess(e, i, top, R, mid, T, arms, tools)
+        if abs(out) <= tol:
+            return mid
+        b = nearer(b, mid, out)
+    return b.high
+
+
+@_inline
 def sticks(e, i, w, top, R, t, k, tol, T, modes, arms, tools, look):
     """Stick from now on, for as long as it lasts."""
-    until = until_slip(cubic(held_force(e, i, top.p, top.q, t, k, T, tools, arms), t), R, t, tol)
+    f = cubic(held_force(e, i, top.p, top.q, t, k, T, tools, arms), t)
+    until = until_slip(f, R, t, tol)
     lasts = until >= t
     if not lasts:
-        t, k = until, PART
         if arms is not None:
-            fill(t, None, arms, tools.times, PART)
+            until = until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools)
+            fill(until, None, arms, tools.times, PART)
+        t, k = until, PART
     if look is not None:
         impulse = t * (at(R, 0.0) + 4.0 * at(R, 0.5 * t) + at(R, t)) / 6.0
         nodes = look.nodes if t == tools.times.h else nodes_of(t, modes, arms)
@@ -230,13 +281,21 @@ def arms_give(t, k, G, T, tools, arms):
 
 
 @_inline
+def is_slow(t, T, arms):
+    """Whether a dashpot is so slow in a time that what it yields is taken from the integral of the force."""
+    return t < T if arms is None else SLOW * t < T
+
+
+@_inline
 def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
     """Slip over a time, and the way on which it takes the end of the spring: a parabola with the true rates at both
-    ends, shifted so that the force is. The memory of arms and their slip are brought in line with each other.
+    ends, shifted so that the force is; on a slow dashpot so that what it yields is. The memory of arms and their slip
+    are brought in line with each other.
     """
     rate_0, rate_1 = top.p - start.vel * start.n, top.p + 2.0 * t * top.q
     v, way = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Way(rate_0, 0.0j)
     of, per, back, turns, others = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), t, 0.0, 1, 0.0j
+    last, f_0, f_1 = 0.0j, max(R.a, 0.0) * start.n, max(at(R, t), 0.0)
     if arms is not None:
         per, back = arms_give(t, k, G, T, tools, arms)
         turns = MOST_RETURNS
@@ -254,8 +313,17 @@ def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
         q = (rate_1 - of.vel * of.n - rate_0) * (0.5 / t)
         if arms is not None:
             others, _, _ = remembered(e, i, -t * q, rate_0, q, t, k, False, tools, arms)
-        end = (max(at(R, t), 0.0) + T * of.vel) * of.n - T * rate_1
-        way = Way((end - e[0, i] - others) * (1.0 / per) - t * q, q)
+        if is_slow(t, T, arms):
+            if arms is None:
+                end = yielded(e[0, i], f_0, f_1 * of.n, of.area, of.moment, t, T, phi_of(t / T))
+                mean = (end - e[0, i]) * (1.0 / t)
+            else:  # T x' is what the force leaves to spring and arms, which bear g - T top.p as it begins
+                borne = 0.5 * t * (start.g - T * top.p + e[0, i] + others)
+                bend = t * t / 12.0 * (G * (rate_0 - rate_1 + of.vel * of.n) + last)
+                mean = (of.area - borne - bend) * (1.0 / (t * T + 0.5 * t * per))
+        else:
+            mean = ((f_1 + T * of.vel) * of.n - T * rate_1 - e[0, i] - others) * (1.0 / per)
+        way = Way(mean - t * q, q)
     return of, way
 
 
@@ -297,7 +365,7 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
     if arms is not None:
         others, _, _ = remembered(e, i, way.p, top.p - start.vel * start.n, way.q, t, k, True, tools, arms)
         end -= others
-    e[0, i] = end
+    e[0, i] = e[0, i] + t * (way.p + t * way.q) if is_slow(t, T, arms) else end
     return Stretch(t, lasts, of.n, vel, of.area, of.moment)
 
 
@@ -345,8 +413,10 @@ def rub_disc(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
     for _ in range(MOST_EVENTS):
         left, now = t - gone, begun + gone
         start = start_of(e, i, top, R, h, G, T, arms)
+        out = size_of(start.g) - max(R.a, 0.0)
+        if arms is not None and mode == SLIP and zeros == 0 and out < -INSIDE * tol:
+            mode = STICK  # it has not come to the rim
         if mode == BEGINS:
-            out = size_of(start.g) - max(R.a, 0.0)
             mode = SLIP if (out >= -tol and start.ahead > 0.0) or (T > 0.0 and out > tol) else STICK
         u = left if mode == STICK else even_part(R, T * start.vel + tol, left, SHORTEST * h)
         if u < t:

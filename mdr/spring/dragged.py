@@ -185,6 +185,22 @@ def area_and_moment(f_0, f_1, t):
 
 
 @_inline
+def yielded(x, f_0, f_1, area, moment, t, T, phi):
+    """The extension x of a spring on a dashpot after a time t under a force with these values at both ends, this area
+    and moment, taken for a cubic; phi of law.py, of t/T.
+
+    It is the force less T x' too. But that multiplies what is missed of a velocity by T, which the integral divides by
+    T: where t < T this is the one to take.
+    """
+    mean, lever, last = scaled(1.0 / t, area) - f_0, scaled(1.0 / (t * t), moment) - scaled(0.5, f_0), f_1 - f_0
+    b = scaled(3.0, last) + scaled(36.0, mean) - scaled(60.0, lever)
+    c = scaled(180.0, lever) - scaled(12.0, last) - scaled(96.0, mean)
+    d = scaled(10.0, last) + scaled(60.0, mean) - scaled(120.0, lever)
+    of = scaled(phi[1], f_0) + scaled(phi[2], b) + scaled(2.0 * phi[3], c) + scaled(6.0 * phi[4], d)
+    return scaled(phi[0], x) + scaled(t / T, of)
+
+
+@_inline
 def is_short(v, rho, t):
     """Whether a way is short beside the leash."""
     return along(v, v) * (t * t) < SHORT * (rho * rho)

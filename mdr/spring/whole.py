@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.spring.contact import Answer
-from mdr.spring.dragged import EVEN, NO_PHI, area_and_moment, force_and_rates, is_short, point, scaled, slid
+from mdr.spring.dragged import EVEN, NO_PHI, area_and_moment, force_and_rates, is_short, point, scaled, slid, yielded
 from mdr.spring.law import phi_of
 from mdr.spring.path import FAST, LENT, ROUNDING, Cubic, along, at, size_of, slope
 from mdr.tools.jit import inner
@@ -87,6 +87,8 @@ def whole(s, e, gap, w, path, h, T, modes, each, made):
         if each is not None:
             each.since[i], each.force[i] = (1.0, R_1) if sticks | slips else (0.0, 0.0)
         e_1 = scaled(R_1 + T * l_1, n_1) - scaled(T, top)
+        if viscous:
+            e_1 = yielded(e_0, f_0[0], f_1[0], area, moment, h, T, phi) if h < T else e_1
         e_1 = e_0 + go if sticks else e_1
         made[4 * i + 0] = fallen * s_0 if flies else z_0 + sink
         made[4 * i + 1] = fallen * e_0.real if flies else e_1.real

@@ -85,6 +85,19 @@ def test_turned_axes_turn_a_period_with_all_events(law):
         assert_allclose(e_turned, e, atol=1e-12)
 
 
+DECADES = law_of(0.0, tuple(np.geomspace(1.0, 0.2, 12)), tuple(np.geomspace(2e-4, 1e3, 12)))
+
+
+def test_what_a_period_comes_to_is_continuous():
+    """Friction brings motions together; a mode that ends where a cubic has it, not the force, throws them apart."""
+    gap, w, s, e = some_springs(DECADES, np.random.default_rng(5), 150)
+    _, one, shares = a_period(DECADES, (gap, w, s, e), 0.0)
+    assert np.ptp(shares[:, 0]) > 0.05
+    push = 1e-9 * (np.random.default_rng(6).normal(size=(2, *e.shape)).T @ [1, 1j]).T
+    _, other, _ = a_period(DECADES, (gap, w, s, e + push), 0.0)
+    assert np.abs(other - one).max() < 1e-6  # norm of energy of the push, 1e-8, and what a step leaves unsolved
+
+
 def test_a_straight_way_may_be_split():
     law = LAWS["elastic"]
     gap, w, s, e = some_springs(law, np.random.default_rng(2))
@@ -92,6 +105,21 @@ def test_a_straight_way_may_be_split():
     for _ in range(7):
         e = stepped(law, (gap, w, s, e), 30.0 + 40.0j, 0.0, h=H / 7, z_1=0.0)[2]
     assert_allclose(e, whole, atol=1e-11)
+
+
+@pytest.mark.parametrize("law", [law_of(1e4), law_of(1e4, (1.0, 0.5), (1.0, 50.0))], ids=["Kelvin", "with arms"])
+def test_a_slow_dashpot_yields_what_the_force_gives_it(law):
+    gap, w, s, start = some_springs(law, np.random.default_rng(3))
+
+    def after(n):
+        """Extensions after n parts of a step in which the way turns by 74 degrees."""
+        now, e, h = s.copy(), start.copy(), H / n
+        for t in h * np.arange(n):
+            answer(law, now, e, gap, w, Path(0.05 * t, 0.05, 0.0, 0.4 + (0.3 - 12.0 * t) * 1j, -6j), h)
+        return e[0]
+
+    # no spring yields faster than L[s]/T, and the error is 2 % of that in a step that turns its direction by 74 degrees
+    assert_allclose(after(1), after(40), atol=0.02 * 0.05 * H)
 
 
 def test_the_end_of_a_leash_is_a_tractrix():
