@@ -1,6 +1,6 @@
 """The independent twin: friction of an oscillating contact, written from the physics alone.
 
-Nothing here comes from the library; it needs NumPy and SciPy only. It is slow, it has no options but the
+Nothing here comes from the library. It is slow, it has no options but the
 physics, and its schemes differ from the library's march wherever another scheme exists.
 
 Units. Normal lengths are measured in du_z, tangential lengths in mu_0 kappa du_z, time in 1/omega,
@@ -27,6 +27,7 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
+from numba import njit
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq, minimize_scalar
@@ -481,68 +482,34 @@ class _Period:
         return np.where(touching, np.maximum(self.h + (np.cos(t) - self.T * np.sin(t))[:, None], 0), 0.0)
 
 
+@njit(nogil=True)
 def _kelvin_period(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
     """One period of classical Runge-Kutta 4 for T > 0: e' = (clip(e + T u_x', -N, N) - e) / T, and the body.
 
-    The law is Lipschitz, N is smooth within every step. e is (n_cases, n_springs), y and v are (n_cases,).
+    The law is Lipschitz, N is smooth within every step; loads are N at its beginning, middle and end. e is (n_cases,
+    n_springs), y and v are (n_cases,).
     """
-    mass, k, c = body
-    left, middle, right = loads
-
-    def rate(e, y, v, load):
-        f = e + (T * (v_hat + v))[:, None]
-        np.minimum(f, load, out=f)
-        np.maximum(f, -load, out=f)
-        force = f @ w
-        f -= e
-        f /= T
-        return f, -(k * y + c * v + force) / mass, force
-
-    for j, h in enumerate(dt):
-        e1, a1, f1 = rate(e, y, v, left[j])
-        v1 = v
-        v2 = v + h / 2 * a1
-        e2, a2, f2 = rate(e + h / 2 * e1, y + h / 2 * v1, v2, middle[j])
-        v3 = v + h / 2 * a2
-        e3, a3, f3 = rate(e + h / 2 * e2, y + h / 2 * v2, v3, middle[j])
-        v4 = v + h * a3
-        e4, a4, f4 = rate(e + h * e3, y + h * v3, v4, right[j])
-        e = e + h / 6 * (e1 + 2 * (e2 + e3) + e4)
-        y = y + h / 6 * (v1 + 2 * (v2 + v3) + v4)
-        v = v + h / 6 * (a1 + 2 * (a2 + a3) + a4)
-        force_sum = force_sum + h / 6 * (f1 + 2 * (f2 + f3) + f4)
+    (mass, k, c), parts, weights = body, (0.0, 0.5, 0.5, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)
+    rate, ahead = np.zeros(w.size), np.zeros(w.size)
+    for case in range(y.size):
+        for j in range(dt.size):
+            y_0, v_0, y_rate, v_rate = y[case], v[case], 0.0, 0.0
+            ahead[:] = e[case]
+            for stage in range(4):
+                part, weight, load = parts[stage] * dt[j], weights[stage] * dt[j], loads[(stage + 1) // 2, j]
+                y_now, v_now, force = y_0 + part * y_rate, v_0 + part * v_rate, 0.0
+                for i in range(w.size):
+                    e_now = e[case, i] + part * rate[i]
+                    f = min(max(e_now + T * (v_hat[case] + v_now), -load[i]), load[i])
+                    rate[i] = (f - e_now) / T
+                    ahead[i] += weight * rate[i]
+                    force += w[i] * f
+                y_rate, v_rate = v_now, -(k * y_now + c * v_now + force) / mass
+                y[case] += weight * y_rate
+                v[case] += weight * v_rate
+                force_sum[case] += weight * force
+            e[case] = ahead
     return e, y, v, force_sum
-
-
-def _kelvin_period_of_one_spring(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
-    """_kelvin_period of a flat punch, case by case in plain floats, which a single spring is fastest in."""
-    mass, k, c = body
-    weight = float(w[0])
-    left, middle, right = (load[:, 0].tolist() for load in loads)
-
-    def one(e, y, v, total, v_hat):
-        def rate(e, y, v, load):
-            f = min(max(e + T * (v_hat + v), -load), load)
-            force = weight * f
-            return (f - e) / T, -(k * y + c * v + force) / mass, force
-
-        for j, h in enumerate(dt.tolist()):
-            e1, a1, f1 = rate(e, y, v, left[j])
-            v2 = v + h / 2 * a1
-            e2, a2, f2 = rate(e + h / 2 * e1, y + h / 2 * v, v2, middle[j])
-            v3 = v + h / 2 * a2
-            e3, a3, f3 = rate(e + h / 2 * e2, y + h / 2 * v2, v3, middle[j])
-            v4 = v + h * a3
-            e4, a4, f4 = rate(e + h * e3, y + h * v3, v4, right[j])
-            e += h / 6 * (e1 + 2 * (e2 + e3) + e4)
-            y += h / 6 * (v + 2 * (v2 + v3) + v4)
-            v += h / 6 * (a1 + 2 * (a2 + a3) + a4)
-            total += h / 6 * (f1 + 2 * (f2 + f3) + f4)
-        return e, y, v, total
-
-    cases = zip(*(x.tolist() for x in (e[:, 0], y, v, force_sum, v_hat)), strict=True)
-    e, y, v, force_sum = np.array([one(*case) for case in cases]).T
-    return e[:, None], y, v, force_sum
 
 
 def _elastic_period(e, y, v, force_sum, v_hat, _, w, body, dt, surface):
@@ -608,14 +575,12 @@ def spring_pull_run(
         y = np.full(cases, -(spectrum[0].real + 2 * spectrum[1:].real.sum()))
         v = np.full(cases, -2 * (1j * i * spectrum)[1:].real.sum())
     _one_period = _kelvin_period if T > 0 else _elastic_period
-    if T > 0 and period.h.size == 1:
-        _one_period = _kelvin_period_of_one_spring
     results = []
     for level in steps:
         t, touching = period.grid(level)
         dt = np.diff(t)
         if T > 0:
-            loads = [period.load(at, touching) for at in (t[:-1], t[:-1] + dt / 2, t[1:])]
+            loads = np.array([period.load(at, touching) for at in (t[:-1], t[:-1] + dt / 2, t[1:])])
         else:
             loads = np.maximum(period.h + np.cos(t[1:])[:, None], 0)
         last, done = np.inf, False

@@ -8,7 +8,6 @@ import math
 import numpy as np
 import pytest
 import reference
-import reference_shaken
 import reference_turning
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
@@ -107,14 +106,15 @@ def rigid_body():
     return reference_turning.Body(np.zeros(2), np.zeros(2), np.full(2, np.inf))
 
 
-@pytest.mark.parametrize("T", [0.0, 0.3])
 @pytest.mark.parametrize("depth", [0.7, 2.0])
-def test_what_turns_nowhere_is_what_is_shaken_along(T, depth):
+def test_what_turns_nowhere_is_what_is_shaken_along(depth):
     x_n = [1.5 * np.exp(0.7j)]
-    got = reference_turning.friction(2, depth, [1.0], x_n, [], -0.4, (T, (), ()), **FEW)
-    expected, _ = reference_shaken.friction(2, depth, [1.0], np.negative(x_n), T, 0.4, steps=4096, n_periods=12)
-    assert abs(got.along + expected) < got.doubt + 1e-5  # what touches of the other one are off by
+    got = reference_turning.friction(FLAT, depth, [1.0], x_n, [], -0.4, KELVIN)
+    drag, press = reference_turning.spring(-depth, [1.0], x_n, KELVIN[0], -0.4)
+    assert abs(got.along - drag / press) < got.doubt < 1e-6
     assert got.across == 0
+    still = reference_turning.friction(2, depth, [1.0], [], [], 0.4, **FEW)
+    assert abs(still.along - reference.rigid_elastic_cof(2, depth, 0.4)) < still.doubt < 1e-5
 
 
 @pytest.mark.parametrize("r", [0.3, 1.0])

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import reference_shaken
 from conftest import SHAPES
 from numpy.testing import assert_allclose
+from tables import turning
 
 import mdr
 from mdr.march.dimensionless import ScaledContact
@@ -34,20 +34,6 @@ def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, a
     return replace(mdr.SlidingContact(indenter, material, MU_0, motion, pull, shake), **others)
 
 
-def by_twin(case, v_0, shape, steps, count, n_periods):
-    """COF of the twin, and how far it may be off."""
-    side, unit = math.copysign(1, v_0), case.cycle.unit
-    length, depth = MU_0 * KAPPA * unit, DEPTH / unit
-    k_xc = float(case.indenter.stiffness(DEPTH, case.material.G_star))
-    m, c_x, k_x = case.pull.coefficients
-    body = None if case.pull.is_rigid else (m * OMEGA**2 / k_xc, c_x * OMEGA / k_xc, k_x / k_xc)
-    z_n = [1.0] if case.oscillation.omega else [0.0]
-    knobs = {"steps": steps, "count": count, "n_periods": n_periods}
-    x_n, v = [side * x / length for x in case.way], abs(v_0) / (length * OMEGA)
-    cof, error = reference_shaken.friction(SHAPES[shape][1], depth, z_n, x_n, case.T, v, body, **knobs)
-    return side * MU_0 * cof, MU_0 * error
-
-
 @pytest.mark.parametrize(
     ("shape", "alpha", "T", "chi", "phi", "v"),
     [
@@ -62,13 +48,11 @@ def by_twin(case, v_0, shape, steps, count, n_periods):
 )
 def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi, v):
     case = contact(shape, alpha, T, chi, phi)
-    v_0 = v * max(mdr.critical_velocity(case, way) for way in (1, -1))
-    run = mdr.slide(case, v_0)
-    expected, doubt = by_twin(case, v_0, shape, 4096, 500, 12 if T else 3)
-    assert run.settled
-    assert run.cof_error <= 1e-5 * MU_0
-    assert doubt < 2e-5 * MU_0
-    assert abs(run.cof - expected) <= run.cof_error + doubt + 1e-6 * MU_0  # the springs of the twin
+    row = turning.row_of("", shape, case, v * max(mdr.critical_velocity(case, way) for way in (1, -1)))
+    assert row.settled
+    assert row.bound <= 1e-5
+    assert row.doubt < 2e-5
+    assert row.error <= row.bound
 
 
 @pytest.mark.parametrize(
@@ -77,12 +61,10 @@ def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi,
 )
 def test_a_body_is_within_its_error_of_the_twin(shape, alpha, T, chi, at):
     case = contact(shape, alpha, T, chi, body=(1.0, 0.7, 0.4), at=at)
-    v_0 = -0.4 * mdr.critical_velocity(case, -1)
-    run = mdr.slide(case, v_0)
-    expected, doubt = by_twin(case, v_0, shape, 4096, 120, 30)
-    assert run.settled
-    assert doubt < 2e-4 * MU_0
-    assert abs(run.cof - expected) <= run.cof_error + doubt + 1e-5 * MU_0  # the springs of the twin
+    row = turning.row_of("", shape, case, -0.4 * mdr.critical_velocity(case, -1))
+    assert row.settled
+    assert row.doubt < 2e-4
+    assert row.error <= row.bound
 
 
 # --- limits ---
