@@ -215,32 +215,6 @@ def test_a_load_is_resolved_first():
     assert_allclose(found.mean_F_z, 0.03, rtol=0.03)  # of springs, which leave out coupling and cells
 
 
-@pytest.mark.parametrize(
-    ("knobs", "words"),
-    [
-        ({"v_0": -1e-4}, "v_0 must be positive"),
-        ({"v_0": 0}, "v_0 must be positive"),
-        ({"v_0": np.nan}, "v_0 must be a finite number"),
-        ({"cells": 7}, "cells must be at least 8"),
-        ({"steps_per_period": 7}, "steps_per_period must be at least 8"),
-        ({"n_periods": 0}, "n_periods must be at least 1"),
-        ({"start": "full"}, 'start must be "full_slip" or "rest"'),
-        ({"limit_s": 0}, "limit_s must be positive"),
-    ],
-)
-def test_arguments_out_of_range_are_refused(knobs, words):
-    with pytest.raises(ValueError, match=words):
-        slide(BALL, **{"v_0": 1e-4, **knobs})
-
-
-def test_arguments_of_a_wrong_kind_are_refused():
-    for wrong in (lambda: slide("case", 1e-4), lambda: slide(BALL, "1e-4"), lambda: slide(BALL, 1e-4, coupled=1)):
-        with pytest.raises(TypeError):
-            wrong()
-    with pytest.raises(ValueError, match="must be a list of velocities"):
-        mdr.half_space.curve(BALL, [])
-
-
 def test_a_step_that_does_not_converge_has_its_own_error(monkeypatch):
     contact_of = friction.contact_of
     monkeypatch.setattr(friction, "contact_of", lambda *given: replace(contact_of(*given), turns=1))
