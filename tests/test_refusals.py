@@ -8,6 +8,7 @@ import math
 import pickle
 import warnings
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -31,6 +32,17 @@ PUSHED = mdr.NormalOscillation(20e-6, 30e-6, 314.0)
 LOST = replace(CASE, indenter=mdr.FlatPunch(1e-3), material=mdr.Elastic(3e6, 0.5), oscillation=PUSHED)
 BAND = mdr.Spectrum.band(rms=2e-6, f_low=30.0, f_high=80.0)
 STUDY = mdr.sweep(RIGID, {"v_0/v_c": [0.5], "indenter": [BALL]}, quantities=["cof", "v_c"])
+SHAKEN = replace(RIGID, shake=mdr.InPlaneOscillation(314.0, du_x=1e-6))
+STILL = replace(RIGID, material=mdr.Elastic(3e6, 0.5), oscillation=mdr.ConstantDepth(2e-5), shake=SHAKEN.shake)
+CROSSED = replace(STILL, shake=mdr.InPlaneOscillation(314.0, du_y=4e-6))
+AT_PULL = mdr.InPlaneOscillation(314.0, 1e-6, at="pull")
+ON_RESONANCE = replace(SHAKEN, pull=mdr.SpringPull(k_x=2e4, m=2e4 / 314.0**2), shake=AT_PULL)
+TOUCHING = replace(RIGID, oscillation=mdr.NormalOscillation(-4e-7, 2e-6, 314.0))
+MOVED = partial(
+    mdr.slide_record, indenter=BALL, material=STILL.material, mu_0=0.5, t=[0, 1, 2], u_x=[0, 1e-6, 0], u_z=1e-6
+)
+RIG = partial(mdr.rig, indenter=mdr.Sphere(5e-3), material=STILL.material, mu_0=0.8, frequency=50.0, load=1.0)
+GRID = np.linspace(0, 2e-3, 201)
 T = np.arange(200) / 200
 WAVE = np.sin(2 * np.pi * 20 * T)
 
@@ -306,6 +318,17 @@ SAYINGS = {
     "Profile(lambda r: np.sin(1e3 * r) * 1e-3, r_max=5e-3).contact_radius(8e-4)": "annular",
     "Profile(lambda r: r**2, r_max=1e-3).contact_radius(1.0)": "d = 1 m is deeper than",
     "CappedParaboloid(1.0, 2.0, 1e-3)": "R2 must not exceed R1 = 1 m, got 2 m",
+    "SampledProfile(GRID[1:], GRID[1:])": "r must begin at 0, the tip from which the depth counts, got 1e-05 m",
+    "SampledProfile(GRID - 1e-3, GRID)": "got -0.001 m: give one side of a mirrored profile",
+    "SampledProfile(GRID[::-1], GRID)": "sort the points by r",
+    "SampledProfile(np.repeat(GRID, 2), np.repeat(GRID, 2))": "r must ascend, got 0 and then 0",
+    "SampledProfile(GRID, GRID**2, kinks=[1.001e-3])": "got 0.001001 m: the nearest is 0.001 m",
+    "SampledProfile(GRID, -(GRID**2))": "annular contact",
+    "FromForce(GRID, GRID**0.9, 2e6)": "falls at d = 1e-05 m",
+    "FromForce(GRID, np.minimum(GRID, 1e-3 + (GRID - 1e-3) / 2), 2e6)": "F must rise more and more steeply",
+    "FromForce(GRID, GRID * 0, 2e6, smoothing=1.0)": "F must be positive for d > 0",
+    "FromForce(GRID + 1e-9, GRID, 2e6)": "d and F must begin with 0, got 1e-09 m and 0 N",
+    "FromForce(GRID[:6], GRID[:6], 2e6)": "at least 7 numbers",
     "SampledProfile([0, 1e-3], [0, 1e-5])": "at least 6 numbers",
     "SampledProfile([0, 1e-3], [0, 1e-6, 2e-6])": "f must have as many numbers as r",
     "FromForce(NINE, -NINE, 1e6)": "F must ascend",
@@ -337,6 +360,9 @@ SAYINGS = {
     "PeriodicMotion.from_acceleration([0, 1, 2], [0, 1, 0], u_z0=1e-5)": "t must be a list of 8 instants or more",
     "displacement_of(T**1.1, WAVE, high_pass=5.0)": "t must rise in equal steps, but sample",
     "LoadOscillation(0.1, 0.2, 300)": "dF_z = 0.2 N must be less than F_z0 = 0.1 N where nothing has mass",
+    "SpringPull(k_x=2e4, c_y=1.0)": "give k_y",
+    "replace(CASE, shake=InPlaneOscillation(314.0, du_y=1e-6, at='pull'))": "guided there",
+    "FrictionData([1.0, 2.0], [0.3])": "cof must be a list of as many numbers as v_0",
     "SpringPull(0)": "for a rigid pull use RigidPull()",
     "SpringPull(kx=2e4)": "did you mean k_x?",
     # a contact
@@ -352,6 +378,8 @@ SAYINGS = {
     "slide(CASE, -1e-3)": "the other way is the same where nothing shakes in the plane",
     "slide(CASE, 1e-3, n_periods=200_000, record=200_000)": "more than memory holds",
     "slide(CASE, 1e-15)": "rounding hides the motion",
+    "slide(replace(SHAKEN, shake=InPlaneOscillation(314.0, 1e7)), 1.0)": "the shake is more than",
+    "no_load_velocity(ON_RESONANCE)": "undamped natural frequency",
     "slide(CASE, 1e25)": "full slip but for rounding; lower it",
     "cof_curve(CASE, [5e-4], n_springs=10**8)": "more than memory holds",
     "partial_slip(BALL, RUBBER, 0.5, -1e-6, 1e-7)": "u_z0 must be positive",
@@ -395,6 +423,8 @@ SAYINGS = {
     'sweep(CASE, {"oscillation": [LoadOscillation(1, 0.5, 3)], "alpha": [0.1]})': "alpha sets oscillation.du_z, which",
     'sweep(CASE, {"indenter": [Cone(theta=0.1)], "indenter.R": [1e-3]})': "Cone has none; did you mean indenter",
     'fit(CASE, SOME, "mu_0")': "parameters must be a list of names",
+    'fit(RIGID, SOME, ["omega_0/omega"])': "cannot be varied: omega_0/omega: RigidPull has no k_x",
+    'fit(replace(RIGID, material=Elastic(3e6, 0.4)), SOME, ["T"])': "T cannot be varied: T: Elastic has no tau",
     "fit(CASE, SOME, [])": "must name at least one",
     "fit(CASE, SOME, [3])": "parameters must be names",
     'fit(CASE, SOME, ["theta"])': "theta is no parameter of this case",
@@ -492,6 +522,14 @@ SAYINGS = {
     "laws.half_a_blow(replace(CASE, pull=SpringPull(k_x=1e4)))": "m = 0",
     "laws.lock_in(1)": "at least 2",
     "laws.first_order(replace(CASE, oscillation=LOAD))": "harmonic",
+    "laws.coupling_loss(SHAKEN)": "shake in the plane",
+    "laws.coupled_critical_velocity(SHAKEN)": "shake in the plane",
+    "laws.first_order(replace(SHAKEN, pull=SLED))": "shake in the plane",
+    "laws.lost_under_shake(SHAKEN, 1e-4)": "this law is that of an",
+    "laws.lost_under_shake(replace(SHAKEN, shake=InPlaneOscillation(314.0, 1e-4)), 1e-4)": "this law is that of an",
+    "laws.excess_across(replace(CROSSED, material=RUBBER), 1e-4)": "only elastic",
+    "closed_forms.rigid_pull.small_velocity(replace(LOST, material=RUBBER, pull=RigidPull()))": "lost entirely",
+    "closed_forms.rigid_pull.near_critical(TOUCHING)": "open at the instant of fastest approach",
     "laws.random_friction(CASE, BAND, 1e-3)": "use random_cof",
     "laws.random_friction(replace(RIGID, shake=InPlaneOscillation(314.0, 1e-6)), BAND, 1e-3)": "use random_cof",
     "laws.random_friction(replace(RIGID, material=SOLID), BAND, 1e-3)": "use random_cof",
@@ -518,6 +556,59 @@ SAYINGS = {
     'STUDY.select({"v_0/v_c": None})': "v_0/v_c has numbers for values, got None",
     'STUDY.select({"indenter": Cone(0.06)})': "no value Cone",
     'STUDY.select("v_0/v_c")': "values must map paths to values",
+    'sweep(SHAKEN, {"chi": [0.5], "shake.du_x": [1e-6]})': "chi and shake.du_x set the same",
+    'sweep(CROSSED, {"eta": [0.5], "shake.du_y": [1e-6]})': "eta and shake.du_y set the same",
+    # records of motion
+    "MOVED(t=[0, 2, 1])": "t must rise, got 1 s after 2 s",
+    "MOVED(t=[0, 1, 1])": "t must rise",
+    "MOVED(t=[0, NAN, 2])": "finite",
+    "MOVED(t=[0], u_x=[0], u_z=[1e-6])": "two instants",
+    "MOVED(t=np.zeros((3, 2)))": "two instants",
+    "MOVED(u_x=[0, 1e-6])": "u_x must have the shape",
+    "MOVED(u_x=[0, NAN, 0])": "finite",
+    'MOVED(u_x=["a", "b", "c"])': "real numbers",
+    "MOVED(u_y=[0, 0, 0, 0])": "u_y must have the shape",
+    "MOVED(u_z=[0, INF, 0])": "finite",
+    "MOVED(u_z=-1e-6)": "never touches",
+    "MOVED(F_z=1.0)": "not both",
+    "MOVED(u_z=None)": "not both",
+    "MOVED(u_z=None, F_z=[0.01, -0.01, 0.01])": "F_z must not be negative",
+    "MOVED(u_z=None, F_z=0.0)": "never touches",
+    "MOVED(indenter=Profile(np.square, r_max=1e-4), u_z=1e-6)": "deeper",
+    "MOVED(material=Prony(0.0, [(1e6, 1e-3)], 0.5))": "E_inf = 0",
+    "MOVED(material=Prony(0.0, [(1e6, 1e-3)], 0.5), u_z=None, F_z=1.0)": "E_inf = 0",
+    "MOVED(n_springs=16)": "n_springs",
+    "MOVED(mu_0=-0.1)": "mu_0",
+    "MOVED(indenter=None)": "indenter",
+    "MOVED(material=3e6)": "material",
+    # rigs
+    "RIG(load=None, load_amplitude=0.1)": "give the load once",
+    "RIG(load_grams=3.0, load_amplitude=0.1)": "give the load once",
+    "RIG(load=-1.0, load_amplitude=0.1)": "load must be positive",
+    "RIG(frequency=0.0, load_amplitude=0.1)": "frequency must be positive",
+    "RIG(load_amplitude=0.1, acceleration=3.0)": "give one of them",
+    "RIG()": "nothing vibrates",
+    "RIG(load_amplitude=0.1, k_x=2e4)": "m is missing",
+    "RIG(load_amplitude=0.1, c_x=2.0)": "give k_x",
+    "RIG(load_amplitude=0.1, k_x=2e4, m=0.2)": "Say load_rides=True",
+    "RIG(load_amplitude=0.1, m=0.2)": "Say load_rides=True",
+    "RIG(load_amplitude=0.1, load_rides=True)": "give the mass m of the sled",
+    "RIG(load_amplitude=0.1, m=0.1, load_rides=False)": "m has no effect under a rigid pull",
+    "RIG(depth_amplitude=1e-6, k_x=2e4, m=0.1, load_rides=True)": "is about an oscillating load",
+    'RIG(load_amplitude=0.1, k_x=2e4, m=0.1, load_rides="no")': "True or False",
+    "RIG(shake=InPlaneOscillation(628.0, 1e-6))": "nothing vibrates at the frequency of 50 Hz",
+    "RIG(load_amplitude=2.0)": "must be less than F_z0",
+    "RIG(depth_amplitude=NAN)": "depth_amplitude must be",
+    "RIG(load=1e6, depth_amplitude=1e-6)": "carries on this material",
+    "RIG(load_amplitude=0.1, tan_delta=-0.1)": "tan_delta must not be negative",
+    "RIG(material=RUBBER, load_amplitude=0.1, tan_delta=0.1)": "tan_delta turns an Elastic",
+    'RIG(depth_amplitude=1e-6, hold="force")': 'hold must be "depth" or "load"',
+    'RIG(load_amplitude=0.1, hold="load")': "hold is about a driven depth",
+    # keywords
+    "slide(None, v=1)": "slide takes no v; did you mean v_0?",
+    "rig(None, None, 0.3, frequency=5, amplitude=1e-6)": "did you mean load_amplitude or depth_amplitude?",
+    "cof_curve(None, 1, springs=40)": "cof_curve takes no springs; did you mean n_springs?",
+    'sweep(None, {}, quantity=["cof"])': "sweep takes no quantity; did you mean quantities?",
     # ends of shapes
     "Sphere(5e-3).profile_1d(5e-3)": "Sphere is touched within its equator only, x < 0.005 m",
     "Sphere(5e-3).profile_3d([0, 5.5e-3])": "Sphere ends at its equator r = 0.005 m, got 0.0055 m",

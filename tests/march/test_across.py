@@ -8,7 +8,6 @@ from numpy.testing import assert_allclose
 from tables import turning
 
 import mdr
-from mdr.tools.checks import FieldError
 
 OMEGA, MU_0, DEPTH = 300.0, 0.4, 20e-6
 
@@ -96,13 +95,6 @@ def test_what_is_kept_of_a_run():
     assert "F_y [N]" in run.table().splitlines()[0]
     plain = mdr.slide(replace(contact(0.8), shake=mdr.InPlaneOscillation(OMEGA, du_x=1e-5)), 1e-3, record=1)
     assert (plain.u_y, plain.cof_y) == (None, 0.0)
-
-
-def test_a_guided_body_cannot_be_shaken_across_at_its_pull():
-    with pytest.raises(FieldError, match="guided there"):
-        contact(0.5, at="pull", pull=mdr.SpringPull(k_x=2e4))
-    with pytest.raises(FieldError, match="give k_y"):
-        mdr.SpringPull(k_x=2e4, c_y=1.0)
 
 
 @pytest.mark.parametrize(
