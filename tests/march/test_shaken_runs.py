@@ -108,33 +108,6 @@ def test_the_other_way_is_the_mirror_image():
     assert one.energy_balance == other.energy_balance
 
 
-@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)])
-def test_units_and_mu_0_and_moduli_drop_out(body):
-    one = contact(alpha=0.4, T=0.3, chi=1.2, body=body)
-    material = mdr.KelvinVoigt(E=7e9, nu=0.2, tau=0.3 / 5e4)
-    ratio = material.mindlin_ratio * 0.7 / (KAPPA * MU_0)
-    two = replace(
-        one,
-        mu_0=0.7,
-        material=material,
-        oscillation=replace(one.oscillation, omega=5e4),
-        shake=replace(one.shake, omega=5e4, du_x=one.shake.du_x * ratio),
-    )
-    if body is not None:
-        scale = material.G_star / one.material.G_star
-        m, c_x, k_x = one.pull.coefficients
-        slower = OMEGA / 5e4
-        two = replace(two, pull=mdr.SpringPull(k_x * scale, m * scale * slower**2, c_x * scale * slower))
-    for v in (0.3, -0.6):
-        v_0 = v * mdr.critical_velocity(one, -1)
-        first, second = mdr.slide(one, v_0, **KNOBS), mdr.slide(two, v_0 * ratio / slower_of(one, two), **KNOBS)
-        assert second.cof / 0.7 == pytest.approx(first.cof / MU_0, rel=1e-7)
-
-
-def slower_of(one, two):
-    return one.omega / two.omega
-
-
 def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
     far = contact(alpha=0.4, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4), at="pull")
     X = complex(far.way[0])
@@ -187,13 +160,6 @@ def test_energy_has_three_drives(T, body, at):
     # the path of a body within a step is taken for a cubic, which misses h^4 = 9e-5 times a thousandth
     assert abs(account.relative) < (1e-9 if body is None else 1e-7)
     assert account.shake_work > 0.1 * account.friction_loss
-
-
-def test_at_rest_the_start_decides_where_a_contact_can_hold():
-    case = contact("flat", chi=0.5)
-    forward, rest = (mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest"))
-    assert abs(forward.cof - 0.5 * MU_0) <= forward.cof_error
-    assert abs(rest.cof) < 0.5 * MU_0 - 1e-6
 
 
 def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():
