@@ -512,23 +512,26 @@ def _kelvin_period(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
     return e, y, v, force_sum
 
 
+@njit(nogil=True)
 def _elastic_period(e, y, v, force_sum, v_hat, _, w, body, dt, surface):
     """One period of velocity Verlet for T = 0, with the return mapping e -> clip(e + du_x, -s, s)."""
     mass, k, c = body
-    force = e @ w
-    a = -(k * y + c * v + force) / mass
-    for j, h in enumerate(dt):
-        du = h * v + h * h / 2 * a
-        e = e + (du + h * v_hat)[:, None]
-        np.minimum(e, surface[j], out=e)
-        np.maximum(e, -surface[j], out=e)
-        y = y + du
-        before = force
-        force = e @ w
-        half = v + h / 2 * a
-        v = (half - h / 2 * (k * y + force) / mass) / (1 + h / 2 * c / mass)
-        a = -(k * y + c * v + force) / mass
-        force_sum = force_sum + h / 2 * (before + force)
+    for case in range(y.size):
+        y_0, v_0 = y[case], v[case]
+        force = (e[case] * w).sum()
+        a = -(k * y_0 + c * v_0 + force) / mass
+        for j in range(dt.size):
+            h, before = dt[j], force
+            du, force = h * v_0 + h * h / 2 * a, 0.0
+            for i in range(w.size):
+                e[case, i] = min(max(e[case, i] + du + h * v_hat[case], -surface[j, i]), surface[j, i])
+                force += w[i] * e[case, i]
+            y_0 += du
+            half = v_0 + h / 2 * a
+            v_0 = (half - h / 2 * (k * y_0 + force) / mass) / (1 + h / 2 * c / mass)
+            a = -(k * y_0 + c * v_0 + force) / mass
+            force_sum[case] += h / 2 * (before + force)
+        y[case], v[case] = y_0, v_0
     return e, y, v, force_sum
 
 

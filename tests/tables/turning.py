@@ -98,9 +98,9 @@ def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) ->
     )
 
 
-def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float) -> Row:
+def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:
     """The run beside the twin, along or across the pull, where they differ more."""
-    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0)
+    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs)
     bound, ends = run.cof_error / MU_0, ((run.cof, known.along, ""), (run.cof_y, known.across, ", across"))
     rows = [Row(name + end, cof / MU_0, bound, truth, known.doubt, run.settled) for cof, truth, end in ends]
     return max(rows, key=lambda one: one.distance)
