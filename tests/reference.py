@@ -27,7 +27,6 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numba import njit
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq, minimize_scalar
@@ -446,178 +445,12 @@ def full_slip_critical_velocity(
     return float(best)
 
 
-# --- spring pull --------------------------------------------------------------------------------------------
+# --- spring pull: reference_turning.py has all but a body without mass --------------------------------------
 
 
 def damping_for(zeta, k_ratio, omega_0_ratio):
     """The c_ratio that gives the damping ratio zeta = c_x / (2 sqrt(k_x m))."""
     return 2 * zeta * k_ratio / omega_0_ratio
-
-
-class _Period:
-    """One period of the springs, cut at every touch and loss of contact, and as finely as asked between."""
-
-    def __init__(self, n, depth_ratio, T, breaks, n_nodes, reference_depth):
-        self.h, self.w = springs(n, depth_ratio, [math.hypot(1, T), *breaks], n_nodes, reference_depth=reference_depth)
-        self.T = T
-        self.on, self.off = contact_times(self.h, T)
-        self.always = always_touches(self.h, T)
-        self.events = np.concatenate([self.on[~self.always], self.off[~self.always]]) % TWO_PI
-
-    def grid(self, steps):
-        """Times with every event among them, at most 2 pi / steps apart, and who touches in each interval."""
-        cuts = np.unique(np.concatenate([[0.0, np.pi], self.events]))
-        cuts = np.append(cuts[np.concatenate([[True], np.diff(cuts) > 1e-10])], TWO_PI)
-        t = [
-            low + (high - low) * np.arange(parts) / parts
-            for low, high in pairwise(cuts)
-            for parts in [math.ceil((high - low) * steps / TWO_PI)]
-        ]
-        t = np.append(np.concatenate(t), TWO_PI)
-        middle = (t[:-1] + t[1:])[:, None] / 2
-        return t, ((middle - self.on) % TWO_PI < self.off - self.on) | self.always
-
-    def load(self, t, touching):
-        """N = w + T w' of every spring in contact, 0 otherwise; (n_t, n_springs)."""
-        return np.where(touching, np.maximum(self.h + (np.cos(t) - self.T * np.sin(t))[:, None], 0), 0.0)
-
-
-@njit(nogil=True)
-def _kelvin_period(e, y, v, force_sum, v_hat, T, w, body, dt, loads):
-    """One period of classical Runge-Kutta 4 for T > 0: e' = (clip(e + T u_x', -N, N) - e) / T, and the body.
-
-    The law is Lipschitz, N is smooth within every step; loads are N at its beginning, middle and end. e is (n_cases,
-    n_springs), y and v are (n_cases,).
-    """
-    (mass, k, c), parts, weights = body, (0.0, 0.5, 0.5, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)
-    rate, ahead = np.zeros(w.size), np.zeros(w.size)
-    for case in range(y.size):
-        for j in range(dt.size):
-            y_0, v_0, y_rate, v_rate = y[case], v[case], 0.0, 0.0
-            ahead[:] = e[case]
-            for stage in range(4):
-                part, weight, load = parts[stage] * dt[j], weights[stage] * dt[j], loads[(stage + 1) // 2, j]
-                y_now, v_now, force = y_0 + part * y_rate, v_0 + part * v_rate, 0.0
-                for i in range(w.size):
-                    e_now = e[case, i] + part * rate[i]
-                    f = min(max(e_now + T * (v_hat[case] + v_now), -load[i]), load[i])
-                    rate[i] = (f - e_now) / T
-                    ahead[i] += weight * rate[i]
-                    force += w[i] * f
-                y_rate, v_rate = v_now, -(k * y_now + c * v_now + force) / mass
-                y[case] += weight * y_rate
-                v[case] += weight * v_rate
-                force_sum[case] += weight * force
-            e[case] = ahead
-    return e, y, v, force_sum
-
-
-@njit(nogil=True)
-def _elastic_period(e, y, v, force_sum, v_hat, _, w, body, dt, surface):
-    """One period of velocity Verlet for T = 0, with the return mapping e -> clip(e + du_x, -s, s)."""
-    mass, k, c = body
-    for case in range(y.size):
-        y_0, v_0 = y[case], v[case]
-        force = (e[case] * w).sum()
-        a = -(k * y_0 + c * v_0 + force) / mass
-        for j in range(dt.size):
-            h, before = dt[j], force
-            du, force = h * v_0 + h * h / 2 * a, 0.0
-            for i in range(w.size):
-                e[case, i] = min(max(e[case, i] + du + h * v_hat[case], -surface[j, i]), surface[j, i])
-                force += w[i] * e[case, i]
-            y_0 += du
-            half = v_0 + h / 2 * a
-            v_0 = (half - h / 2 * (k * y_0 + force) / mass) / (1 + h / 2 * c / mass)
-            a = -(k * y_0 + c * v_0 + force) / mass
-            force_sum[case] += h / 2 * (before + force)
-        y[case], v[case] = y_0, v_0
-    return e, y, v, force_sum
-
-
-def spring_pull_run(
-    n,
-    depth_ratio,
-    v_hat,
-    T,
-    k_ratio,
-    omega_0_ratio,
-    c_ratio,
-    *,
-    n_nodes=64,
-    steps=(256, 1024),
-    window=4,
-    tol=1e-9,
-    max_periods=4000,
-    start="full_slip",
-    breaks=(),
-    reference_depth=None,
-):
-    """COF / mu_0 of the settled motion, a list with one array (n_cases,) for every entry of steps.
-
-    v_hat may be an array: its cases run side by side. T > 0 is integrated by Runge-Kutta 4, T = 0 by Verlet
-    with the return mapping, both on steps that end at every touch and loss of contact. A run goes on until
-    two successive windows of whole periods agree to tol; the next entry of steps begins where it ended.
-    Start is the full-slip periodic motion, or "rest": springs unloaded, body still, its own spring relaxed.
-    n_nodes springs stand in each panel: between the tip, the spring that only just keeps contact, the
-    values in breaks, and the edge.
-    """
-    v_hat = np.atleast_1d(np.asarray(v_hat, dtype=float))
-    period = _Period(n, depth_ratio, T, breaks, n_nodes, reference_depth)
-    mass, _ = body_matrix(k_ratio, omega_0_ratio, c_ratio)
-    body = mass, k_ratio, c_ratio
-    cases, f_mean = v_hat.size, float(mean_compression(period.h, T) @ period.w)
-    if start == "rest":
-        e, y, v = np.zeros((cases, period.h.size)), np.zeros(cases), -v_hat
-    else:
-        e = np.tile(period.h + 1, (cases, 1))  # at t = 0 every spring that touches at all does so
-        t = np.arange(2048) * TWO_PI / 2048
-        harmonic = np.fft.rfft(full_slip_force(t, n, depth_ratio, T, reference_depth)) / t.size
-        i = np.arange(harmonic.size)
-        spectrum = harmonic / (k_ratio - mass * i**2 + 1j * i * c_ratio)
-        y = np.full(cases, -(spectrum[0].real + 2 * spectrum[1:].real.sum()))
-        v = np.full(cases, -2 * (1j * i * spectrum)[1:].real.sum())
-    _one_period = _kelvin_period if T > 0 else _elastic_period
-    results = []
-    for level in steps:
-        t, touching = period.grid(level)
-        dt = np.diff(t)
-        if T > 0:
-            loads = np.array([period.load(at, touching) for at in (t[:-1], t[:-1] + dt / 2, t[1:])])
-        else:
-            loads = np.maximum(period.h + np.cos(t[1:])[:, None], 0)
-        last, done = np.inf, False
-        for _ in range(max_periods // window):
-            state = e, y, v, np.zeros(cases)
-            for _ in range(window):
-                state = _one_period(*state, v_hat, T, period.w, body, dt, loads)
-            e, y, v, force_sum = state
-            cof = force_sum / (window * TWO_PI) / f_mean
-            done = bool(np.all(np.abs(cof - last) < tol))
-            last = cof
-            if done:
-                break
-        if not done:
-            raise RuntimeError(f"unsettled after {max_periods} periods at {level} steps: COF / mu_0 = {last}")
-        results.append(last)
-    return results
-
-
-def spring_pull_cof(n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio, *, n_nodes=96, steps=None, **knobs):
-    """COF / mu_0 of the settled motion under a spring pull and an estimate of its error, both like v_hat.
-
-    Stick and slip put kinks into the steps and, at any instant, into the row of springs, so both errors are
-    of second order but erratic, and nothing is extrapolated. The estimate adds what the last refinement of
-    the steps and a quarter of the springs change. knobs: see spring_pull_run.
-    """
-    steps = steps or ((256, 1024, 4096) if T == 0 or math.isinf(n) else (256, 1024, 2048))
-    case = n, depth_ratio, v_hat, T, k_ratio, omega_0_ratio, c_ratio
-    *_, coarser, cof = spring_pull_run(*case, n_nodes=n_nodes, steps=steps, **knobs)
-    error = np.abs(cof - coarser)
-    if not math.isinf(n):
-        sparser = spring_pull_run(*case, n_nodes=n_nodes * 3 // 4, steps=steps[:-1], **knobs)[-1]
-        error = error + np.abs(sparser - coarser)
-    return (float(cof[0]), float(error[0])) if np.ndim(v_hat) == 0 else (cof, error)
 
 
 def massless_punch(depth, v, T, k, n, n_periods=12):
