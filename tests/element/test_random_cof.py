@@ -3,7 +3,6 @@
 import pickle
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -99,4 +98,3 @@ def test_the_record_of_it():
         found.cof[0] = 0
     ax = found.plot()
     assert found.plot(ax) is ax
-    plt.close(ax.figure)

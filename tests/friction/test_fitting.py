@@ -3,15 +3,11 @@
 import re
 from dataclasses import replace
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 
 import mdr
 from mdr.friction.free_parameters import Parameter
-
-mpl.use("Agg")
-import matplotlib.pyplot as plt
 
 TAU, MU_0 = 1e-3, 0.5
 CASE = mdr.SlidingContact(
@@ -137,7 +133,6 @@ def test_a_phase_is_fitted_to_both_ways_from_zero():
     assert least < -2.5e-3 < 2.5e-3 < most
     ax = found.plot()
     assert len(ax.figure.axes) == 2
-    plt.close(ax.figure)
 
 
 def test_signs_that_no_unshaken_contact_shows_are_refused():
@@ -183,4 +178,3 @@ def test_a_fit_prints_and_draws():
     below = ax.figure.axes[1]
     assert below.get_ylabel() == "measured\nless fitted"
     assert {text.get_text() for text in ax.get_legend().get_texts()} == {"measured", "fitted contact"}
-    plt.close(ax.figure)

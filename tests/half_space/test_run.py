@@ -3,7 +3,6 @@
 import pickle
 from dataclasses import replace
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -147,7 +146,6 @@ def test_a_run_prints_compares_and_is_kept(found, tmp_path):
 
 
 def test_a_run_draws_itself(found):
-    mpl.use("Agg")
     assert len(found.plot().axes) == 5  # four instants, and the colours
     one = found.plot(0.5)
     assert len(one.axes) == 2
@@ -165,7 +163,6 @@ def test_a_curve_is_made_of_runs(found, tmp_path):
     curve.to_csv(tmp_path / "curve.csv")
     assert (tmp_path / "curve.csv").read_text().startswith("v_0 [m/s],cof [-],cof_y [-],cof_error [-]")
     assert "3 velocities" in str(curve)
-    mpl.use("Agg")
     assert curve.plot().get_xlabel().startswith("pulling velocity")
 
 

@@ -11,9 +11,6 @@ import mdr
 from mdr.plots import studies
 from mdr.studies.points import Status
 
-mpl.use("Agg")
-import matplotlib.pyplot as plt
-
 CASE = mdr.SlidingContact(
     mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.5, mdr.NormalOscillation(20e-6, 5e-6, 300.0)
 )
@@ -34,12 +31,6 @@ def flat(study):
 @pytest.fixture(scope="module")
 def shapes():
     return mdr.sweep(CASE, {"indenter": SHAPES, "v_0/v_c": V})
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def broken(study, where, status):
