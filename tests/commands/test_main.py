@@ -399,6 +399,10 @@ WRONG = [
     ("export {punch}", "required"),
     ("half-space {punch} --v-0 -1e-4", "--v-0 must be above zero"),
     ("half-space {punch} --v-0 1e-4 --cells 3", "a whole number from 8"),
+    ("fit {punch} {data} --free taw", "taw is no parameter of this case"),
+    ("fit {punch} {data} --free mu_0 --bounds mu_0=0.1-1", "must be name=low:high, such as material.tau=1e-5:1e-1"),
+    ("fit {punch} {data} --free mu_0 -o {data}", "data.csv: no folder to write to"),
+    ("fit {punch} {data}", "the following arguments are required: --free"),
     ("find {punch} du_y --v-c 1", "du_y is no parameter"),
     *((f"find {{punch}} {words}", "give one wish") for words in ("du_z --v-0 1", "E")),
     ("find {punch} du_z --v-c 1 --within '1 s' '2 s'", "--within wants m (or cm"),
@@ -426,10 +430,11 @@ def test_what_cannot_be_asked_is_status_2_and_found_before_any_work(
     for work in ("slide", "cof_curve", "verdict", "studies.points.compute", "half_space.slide"):
         monkeypatch.setattr(f"mdr.{work}", None)
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "data.csv").write_text("v_0 [mm/s], cof, error\n0.1, 0.30, 0.01\n0.4, 0.36, 0.01\n0.8, 0.39, 0.01\n")
     before = set(tmp_path.iterdir())
     study = Path(EXAMPLE).with_name("study.toml")
     try:
-        status = main(shlex.split(line.format(punch=punch, resonant=resonant, study=study)))
+        status = main(shlex.split(line.format(punch=punch, resonant=resonant, study=study, data="data.csv")))
     except SystemExit as end:
         status = end.code
     out, err = capsys.readouterr()

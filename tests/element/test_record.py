@@ -263,16 +263,6 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
         ("t [s], a_x [g], u_x [um], u_z [um]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_x and u_x: leave one out"),
         ("t [s], u_x [um], a_z [g], F_z [N]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_z and F_z: leave one out"),
         ("t [s], a_z [g]\n" + "".join(f"{k}, 1\n" for k in range(9)), "names no u_x"),
-    ],
-)
-def test_hostile_accelerations_are_refused(tmp_path, capsys, text, words):
-    assert main([*written(tmp_path, text), "--high-pass", "0.3Hz"]) == 2
-    assert words in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
         ("t [s], u_x [um]\n0, 1\n1, 2\n", "either u_z"),
         ("t [s], u_x, u_z [um]\n0, 1, 1\n", "u_x needs a unit"),
         ("t [s], u_z [um]\n0, 1\n", "names no u_x"),
@@ -282,7 +272,8 @@ def test_hostile_accelerations_are_refused(tmp_path, capsys, text, words):
     ],
 )
 def test_hostile_files_are_refused(tmp_path, capsys, text, words):
-    assert main(written(tmp_path, text)) == 2
+    high_pass = ["--high-pass", "0.3Hz"] if "a_" in text else []
+    assert main([*written(tmp_path, text), *high_pass]) == 2
     assert words in capsys.readouterr().err
 
 
