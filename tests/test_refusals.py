@@ -43,6 +43,7 @@ MOVED = partial(
 )
 RIG = partial(mdr.rig, indenter=mdr.Sphere(5e-3), material=STILL.material, mu_0=0.8, frequency=50.0, load=1.0)
 GRID = np.linspace(0, 2e-3, 201)
+TABLE = mdr.sweep(RIGID, {"alpha": [0.1, 0.2], "mu_0": [0.5], "T": [0.1]}, quantities=["v_c"])
 T = np.arange(200) / 200
 WAVE = np.sin(2 * np.pi * 20 * T)
 
@@ -239,7 +240,8 @@ ARGUMENTS = [
         (one, "must be 1 (forward) or -1") for one in (0, 2, True, "forward")])
       for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity)],
     ("within", lambda value: mdr.verdict(CASE, within=value), [
-        (NAN, "finite"), (1, "between 0 and 1, got 1.0"), (5, "0.01 for 1 %"), ("1%", "must be a real number")]),
+        *((one, "finite") for one in (NAN, INF)), *((one, "between 0 and 1, got") for one in (1, 0.0, -0.01)),
+        (5, "0.01 for 1 %"), *((one, "must be a real number") for one in ("1%", None, True))]),
     ("n_springs", lambda n: mdr.SpringArray.of(CASE, n), [*COUNT, (15, "must be at least 16")]),
     ("n_springs", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, n_springs=n), [*COUNT, (8, "must be at least 32")]),
     ("steps_per_period", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, steps_per_period=n), [*COUNT, (8, "at least 32")]),
@@ -295,7 +297,8 @@ ARGUMENTS = [
 @pytest.mark.parametrize(
     ("name", "call", "hostile"), ARGUMENTS, ids=[f"{call.__qualname__} {name}" for name, call, _ in ARGUMENTS]
 )
-def test_an_argument_is_refused_by_name(name, call, hostile):
+def test_an_argument_is_refused_by_name(name, call, hostile, monkeypatch):
+    monkeypatch.setattr("mdr.friction.measured_velocity.slide", None)  # before any run
     for value, words in hostile:
         message = str(refused(lambda value=value: call(value)))
         assert name in message, message
@@ -558,6 +561,13 @@ SAYINGS = {
     'STUDY.select("v_0/v_c")': "values must map paths to values",
     'sweep(SHAKEN, {"chi": [0.5], "shake.du_x": [1e-6]})': "chi and shake.du_x set the same",
     'sweep(CROSSED, {"eta": [0.5], "shake.du_y": [1e-6]})': "eta and shake.du_y set the same",
+    'TABLE.plot_map("v_c")': "the study has 3",
+    'TABLE.select({"T": 0.1}).plot_map("v_c", x="T")': "no axis of the study",
+    'TABLE.select({"T": 0.1}).plot_map("cof")': "no quantity",
+    'STUDY.plot_map("cof", x="v_0/v_c")': "two axes of numbers",
+    'STUDY.select({"v_0/v_c": 0.5}).plot()': "no axis of numbers",
+    'TABLE.plot_multiples("v_c", over="T", columns=0)': "columns must be at least 1",
+    'TABLE.select({"T": 0.1}).plot_multiples("v_c", over="alpha", levels=[0.3])': "levels is for maps",
     # records of motion
     "MOVED(t=[0, 2, 1])": "t must rise, got 1 s after 2 s",
     "MOVED(t=[0, 1, 1])": "t must rise",

@@ -12,7 +12,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import State
-from mdr.closed_forms import rigid_pull
 from mdr.march import full_slip, march
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
@@ -281,29 +280,6 @@ def test_a_run_of_given_length_says_what_its_error_leaves_out():
 
 
 # --- found by trying to break it --------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("T", [1e-3, 3e-3, 1e-2, 0.1])
-@pytest.mark.parametrize(("shape", "depth_ratio"), [("flat", 3.0), ("paraboloid", 10.0), ("paraboloid", 1.43)])
-def test_cof_error_bounds_materials_faster_than_a_step(shape, depth_ratio, T):
-    case = contact(shape, depth_ratio, T)
-    for v_hat in (0.1, 0.25, 0.4, 0.6, 0.8, 0.9):
-        v_0 = v_hat * unit_of_velocity(case)
-        run, exact = mdr.slide(case, v_0), rigid_pull.average_friction(case, v_0)
-        assert abs(run.cof - exact.cof) <= run.cof_error
-        assert run.cof_error <= 1.0001e-5 * case.mu_0
-
-
-@pytest.mark.parametrize(
-    "knobs", [{"n_springs": 32}, {"steps_per_period": 32}, {"n_springs": 32, "steps_per_period": 32}]
-)
-@pytest.mark.parametrize("T", [0.0, 1.0])
-def test_cof_error_bounds_the_coarsest_runs(knobs, T):
-    case = contact("paraboloid", 1.3, T)
-    for v_hat in (0.2, 0.5, 0.8):
-        v_0 = v_hat * unit_of_velocity(case)
-        run = mdr.slide(case, v_0, **knobs)
-        assert abs(run.cof - rigid_pull.average_friction(case, v_0).cof) <= run.cof_error
 
 
 def test_a_start_from_rest_is_not_settled_before_the_springs_are_stretched():

@@ -148,23 +148,6 @@ def test_the_picture_of_a_map_has_contours_round_or_chosen(study, flat):
     assert len(contours(study.plot())) == 2
 
 
-@pytest.mark.parametrize(
-    ("draw", "words"),
-    [
-        (lambda study, flat, shapes: study.plot_map("cof"), "the study has 3"),
-        (lambda study, flat, shapes: flat.plot_map("cof", x="T"), "no axis of the study"),
-        (lambda study, flat, shapes: flat.plot_map("v_c"), "no quantity"),
-        (lambda study, flat, shapes: shapes.plot_map("cof"), "two axes of numbers"),
-        (lambda study, flat, shapes: shapes.select({"v_0/v_c": 0.2}).plot(), "no axis of numbers"),
-        (lambda study, flat, shapes: study.plot_multiples("cof", over="T", columns=0), "columns must be at least 1"),
-        (lambda study, flat, shapes: flat.plot_multiples("cof", over="alpha", levels=[0.3]), "levels is for maps"),
-    ],
-)
-def test_what_cannot_be_drawn_says_so(study, flat, shapes, draw, words):
-    with pytest.raises((ValueError, KeyError, TypeError), match=words):
-        draw(study, flat, shapes)
-
-
 def test_small_multiples_name_what_failed_once_beside_the_titles(study):
     fig = broken(study, (1, 2, 1), Status.FAILED).plot_multiples("cof", over="T", x="v_0/v_c")
     assert [text.get_text() for text in fig.legends[0].get_texts()] == ["failed"]
