@@ -2,15 +2,19 @@
 
 import math
 import os
+import sys
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: processes share the cores, and threads would wait
 
+import matplotlib as mpl
 import numpy as np
+import pytest
 from hypothesis import settings
 
 import mdr
 
+mpl.use("Agg")
 settings.register_profile("mdr", deadline=None, derandomize=True, database=None)
 settings.load_profile("mdr")
 
@@ -32,6 +36,13 @@ SHAPES = {
     "paraboloid": (mdr.Paraboloid(R=5e-3), 2),
     "r4": (mdr.PowerLaw(n=4, c=2e3), 4),
 }
+
+
+@pytest.fixture(autouse=True)
+def no_figure_outlives_its_test():
+    yield
+    if pyplot := sys.modules.get("matplotlib.pyplot"):
+        pyplot.close("all")
 
 
 def pytest_collection_modifyitems(items):

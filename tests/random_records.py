@@ -87,7 +87,8 @@ def in_units(record, length, time, force):
 
 
 def case_in_units(case, *units):
-    parts = {name: in_units(getattr(case, name), *units) for name in ("indenter", "material", "oscillation")}
+    named = ("indenter", "material", "oscillation", *(["shake"] if case.is_shaken else []))
+    parts = {name: in_units(getattr(case, name), *units) for name in named}
     return replace(case, **parts, pull=case.pull if case.pull.is_rigid else in_units(case.pull, *units))
 
 

@@ -1,8 +1,8 @@
 """The independent twin of a contact shaken along and across its way, whose friction is a vector: the laws of one spring
 in tiny steps, and nothing else.
 
-Nothing here comes from the library. Units as in reference_shaken.py: normal lengths in one that the caller chooses,
-tangential lengths in mu_0 kappa of it, stiffness in that of the whole row, time in 1/omega. With the operator
+Nothing here comes from the library. Units: normal lengths in one that the caller chooses, tangential lengths in
+mu_0 kappa of it, stiffness in that of the whole row, time in 1/omega. With the operator
 
     L[x] = x + T x' + sum_j rho_j x_j,    x_j' = x' - x_j/theta_j,
 
@@ -14,6 +14,9 @@ Backward Euler turns L into a multiple of what it acts on plus something known, 
 material: the force is what it would be in stick, cut to the length p. The step in which a spring touches is cut in two
 at the touch. The body moves by the leap-frog method under the force at the end of the step. All this is of first order.
 Three numbers of steps, each twice the one before, are extrapolated, and what they differ by tells how good that is.
+
+One Kelvin spring that moves along its way only is also followed by scipy's solver of differential equations, from one
+change of mode to the next: far more exact, and far slower.
 """
 
 import math
@@ -22,6 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
+from scipy.integrate import solve_ivp
 
 NEVER = -math.inf  #: of a plane that a spring does not meet
 ELASTIC = 0.0, (), ()  #: T, rho, theta
@@ -153,18 +157,18 @@ def period(row, material, motion, body, state):
 
 
 def springs(n, depth, parts, count):
-    """Gaps and shares of a shape g ~ x**n with a(depth) = 1 that bends at depths `parts` and ends at the greatest of
-    them. `count` cells in all, in each part crowded towards both of its ends, by the middle rule.
+    """Gaps and shares of a shape g ~ x**n that bends at depths `parts` and ends at the greatest of them. a(depth) = 1,
+    or that of the greatest depth where the mean is none. `count` cells in all, in each part crowded towards both of its
+    ends, by the middle rule.
     """
     if math.isinf(n):
         return Row(np.array([-float(depth)]), np.array([1.0]))
-    if not depth > 0:
-        raise ValueError(f"depth = {depth}: the unit of stiffness is that of the row at rest")
     ends = np.unique(np.maximum([0.0, *parts], 0.0))
-    ends = (ends[np.diff(ends, prepend=-1.0) > 1e-9 * depth] / depth) ** (1 / n)
+    size = depth if depth > 0 else ends[-1]  # in whose radius x is measured
+    ends = (ends[np.diff(ends, prepend=-1.0) > 1e-9 * size] / size) ** (1 / n)
     u = np.linspace(0, 1, count // (ends.size - 1), endpoint=False)
     edges = np.append(np.concatenate([a + (b - a) * u**2 * (3 - 2 * u) for a, b in pairwise(ends)]), ends[-1])
-    mean = depth * np.diff(edges ** (n + 1)) / ((n + 1) * np.diff(edges))
+    mean = size * np.diff(edges ** (n + 1)) / ((n + 1) * np.diff(edges))
     return Row(mean - depth, np.diff(edges))
 
 
@@ -296,3 +300,77 @@ def refuse_too_few(steps, material, body, row):
         damping, stiffness = C + material.T * row.w.sum(), K + (1 + material.rho.sum()) * row.w.sum()
         if math.inf > K and h * (damping + 0.5 * h * stiffness) > M:
             raise ValueError(f"M = {M}: {steps} steps are too few for so light a body")
+
+
+# --- by a solver of differential equations ---
+
+#: steps so short that hardly a change and its undoing fall within one, unseen
+PRECISE = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-13, "max_step": 0.05}
+
+
+def spring(gap, z_n, x_n, T, v, most=60):
+    """Means over a period of e and s of one Kelvin spring (T > 0) that is pulled at v of either sign, once the period
+    repeats itself.
+    """
+
+    def of(harmonics, t, order):
+        return sum((a * (1j * n) ** order * np.exp(1j * n * t)).real for n, a in enumerate(harmonics, start=1))
+
+    def force(t):
+        return of(z_n, t, 0) - gap + T * of(z_n, t, 1)
+
+    def rate(t):
+        return v + of(x_n, t, 1)
+
+    laws = {  # e' and s' of each mode; s is z - gap in contact
+        "stick": lambda t, y: (rate(t), of(z_n, t, 1)),
+        "slip": lambda t, y: ((force(t) - y[0]) / T, of(z_n, t, 1)),
+        "back": lambda t, y: ((-force(t) - y[0]) / T, of(z_n, t, 1)),
+        "free": lambda t, y: (-y[0] / T, -y[1] / T),
+    }
+    over = {  # what ends a mode as it rises above zero, and what follows
+        "stick": {
+            "slip": lambda t, y: y[0] + T * rate(t) - force(t),
+            "back": lambda t, y: -y[0] - T * rate(t) - force(t),
+        },
+        "slip": {"stick": lambda t, y: force(t) - y[0] - T * rate(t), "free": lambda t, y: -force(t)},
+        "back": {"stick": lambda t, y: force(t) + y[0] + T * rate(t), "free": lambda t, y: -force(t)},
+        "free": {"touch": lambda t, y: of(z_n, t, 0) - gap - y[1]},
+    }
+
+    def mode_in_contact(t, y):
+        return "slip" if over["stick"]["slip"](t, y) >= 0 else "back" if over["stick"]["back"](t, y) >= 0 else "stick"
+
+    def ends(mode):
+        for next_one, value in over[mode].items():
+
+            def event(t, y, value=value):
+                return value(t, y)
+
+            event.terminal, event.direction = True, 1
+            yield next_one, event
+
+    phases = np.linspace(0, 2 * np.pi, 4001)
+    t = start = phases[np.argmax(of(z_n, phases, 0) * np.ones(phases.size))]  # pressed there, if ever
+    y = np.array([0.0, max(of(z_n, t, 0) - gap, 0.0)])
+    mode, means = mode_in_contact(t, y) if y[1] > 0 else "free", None
+    for k in range(1, most + 1):
+        end, state, before = start + 2 * np.pi * k, np.array([*y, 0.0, 0.0]), y[0]
+        while t < end:
+            named = list(ends(mode))
+
+            def law(t, y, mode=mode):
+                return (*laws[mode](t, y), y[0], y[1])
+
+            part = solve_ivp(law, (t, end), state, events=[event for _, event in named], **PRECISE)
+            t, state = part.t[-1], part.y[:, -1]
+            if part.status == 1:
+                mode = next(name for (name, _), hits in zip(named, part.t_events, strict=True) if hits.size)
+            if mode == "touch":
+                mode = mode_in_contact(t, state)
+        y, means = state[:2], state[2:] / (2 * np.pi)
+        if abs(y[0] - before) < 1e-12:
+            break
+    else:
+        raise ValueError(f"the spring does not repeat itself within {most} periods")
+    return float(means[0]), float(means[1])

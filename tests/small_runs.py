@@ -108,7 +108,7 @@ MAKERS = (least_squares, slides, shaken_pulls, searches, presses, cycles)
 
 def results():
     """Name -> numbers of every run."""
-    few, indentation.STEPS = indentation.STEPS, 40
+    few, indentation.STEPS = indentation.STEPS, 16
     try:
         return {name: [float(x) for x in numbers] for make in MAKERS for name, numbers in make()}
     finally:

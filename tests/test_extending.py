@@ -126,14 +126,11 @@ def test_a_study_varies_it(part, tmp_path):
 
 
 def test_figures_draw_it(part, tmp_path):
-    from matplotlib import pyplot as plt
-
     case, _, _ = part
     curve = mdr.cof_curve(case, mdr.critical_velocity(case) * np.array([0.0, 0.5, 1.1]), **KNOBS)
     curve.plot().figure.savefig(tmp_path / "curve.png")
     plots.plot_profile(case.indenter, 20e-6).savefig(tmp_path / "shape.png")
     mdr.slide(case, 1e-4, n_periods=2, record=1, **KNOBS).plot().savefig(tmp_path / "run.png")
-    plt.close("all")
 
 
 def test_what_cannot_be_registered_is_refused():

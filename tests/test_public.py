@@ -33,6 +33,9 @@ SIGNATURES = {
     "ConstantPressure": "a_0, d_0",
     "ConcavePunch": "a, R",
     "Profile": "f, *, kinks=(), r_max=None, name=None",
+    "SampledProfile": "r, f, ...",
+    "FromForce": "d, F, E_star, ...",
+    "indent": "indenter, material, t, u_z=None, *, F_z=None, ...",
     "Indenter.profile_3d": "r",
     "Indenter.profile_1d": "x",
     "Indenter.contact_radius": "d",
@@ -124,21 +127,10 @@ def bare(signature):
     return str(inspect.Signature(parameters)).replace("'", '"').replace("<factory>", "RigidPull()")
 
 
-@pytest.mark.parametrize(
-    ("name", "begins"),
-    [
-        ("SampledProfile", "(r, f, "),
-        ("FromForce", "(d, F, E_star, "),
-        ("indent", "(indenter, material, t, u_z=None, *, F_z=None, "),
-    ],
-)
-def test_promised_arguments_come_first(name, begins):
-    assert bare(inspect.signature(getattr(mdr, name))).startswith(begins)
-
-
 @pytest.mark.parametrize("name", SIGNATURES)
 def test_names_are_called_as_promised(name):
-    assert bare(inspect.signature(attrgetter(name)(mdr))) == f"({SIGNATURES[name]})"
+    called, first, rest = bare(inspect.signature(attrgetter(name)(mdr))), *SIGNATURES[name].partition("...")[:2]
+    assert called.startswith(f"({first}") if rest else called == f"({first})"
 
 
 @pytest.mark.parametrize("name", RECORDS)

@@ -8,6 +8,7 @@ import math
 import pickle
 import warnings
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -27,6 +28,22 @@ SOLID, LOAD = mdr.StandardLinearSolid(3e6, 3e6, 1e-3, 0.4), mdr.LoadOscillation(
 SOME = mdr.FrictionData([1e-4, 2e-4, 3e-4], [0.4, 0.45, 0.5])
 CONE = 'mu_0 = 0.5\n[indenter]\nshape = "Cone"\n'
 NINE, SHAKE = np.linspace(0, 1e-6, 9), mdr.InPlaneOscillation(300.0, 1e-6)
+PUSHED = mdr.NormalOscillation(20e-6, 30e-6, 314.0)
+LOST = replace(CASE, indenter=mdr.FlatPunch(1e-3), material=mdr.Elastic(3e6, 0.5), oscillation=PUSHED)
+BAND = mdr.Spectrum.band(rms=2e-6, f_low=30.0, f_high=80.0)
+STUDY = mdr.sweep(RIGID, {"v_0/v_c": [0.5], "indenter": [BALL]}, quantities=["cof", "v_c"])
+SHAKEN = replace(RIGID, shake=mdr.InPlaneOscillation(314.0, du_x=1e-6))
+STILL = replace(RIGID, material=mdr.Elastic(3e6, 0.5), oscillation=mdr.ConstantDepth(2e-5), shake=SHAKEN.shake)
+CROSSED = replace(STILL, shake=mdr.InPlaneOscillation(314.0, du_y=4e-6))
+AT_PULL = mdr.InPlaneOscillation(314.0, 1e-6, at="pull")
+ON_RESONANCE = replace(SHAKEN, pull=mdr.SpringPull(k_x=2e4, m=2e4 / 314.0**2), shake=AT_PULL)
+TOUCHING = replace(RIGID, oscillation=mdr.NormalOscillation(-4e-7, 2e-6, 314.0))
+MOVED = partial(
+    mdr.slide_record, indenter=BALL, material=STILL.material, mu_0=0.5, t=[0, 1, 2], u_x=[0, 1e-6, 0], u_z=1e-6
+)
+RIG = partial(mdr.rig, indenter=mdr.Sphere(5e-3), material=STILL.material, mu_0=0.8, frequency=50.0, load=1.0)
+GRID = np.linspace(0, 2e-3, 201)
+TABLE = mdr.sweep(RIGID, {"alpha": [0.1, 0.2], "mu_0": [0.5], "T": [0.1]}, quantities=["v_c"])
 T = np.arange(200) / 200
 WAVE = np.sin(2 * np.pi * 20 * T)
 
@@ -223,7 +240,8 @@ ARGUMENTS = [
         (one, "must be 1 (forward) or -1") for one in (0, 2, True, "forward")])
       for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity)],
     ("within", lambda value: mdr.verdict(CASE, within=value), [
-        (NAN, "finite"), (1, "between 0 and 1, got 1.0"), (5, "0.01 for 1 %"), ("1%", "must be a real number")]),
+        *((one, "finite") for one in (NAN, INF)), *((one, "between 0 and 1, got") for one in (1, 0.0, -0.01)),
+        (5, "0.01 for 1 %"), *((one, "must be a real number") for one in ("1%", None, True))]),
     ("n_springs", lambda n: mdr.SpringArray.of(CASE, n), [*COUNT, (15, "must be at least 16")]),
     ("n_springs", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, n_springs=n), [*COUNT, (8, "must be at least 32")]),
     ("steps_per_period", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, steps_per_period=n), [*COUNT, (8, "at least 32")]),
@@ -279,7 +297,8 @@ ARGUMENTS = [
 @pytest.mark.parametrize(
     ("name", "call", "hostile"), ARGUMENTS, ids=[f"{call.__qualname__} {name}" for name, call, _ in ARGUMENTS]
 )
-def test_an_argument_is_refused_by_name(name, call, hostile):
+def test_an_argument_is_refused_by_name(name, call, hostile, monkeypatch):
+    monkeypatch.setattr("mdr.friction.measured_velocity.slide", None)  # before any run
     for value, words in hostile:
         message = str(refused(lambda value=value: call(value)))
         assert name in message, message
@@ -302,6 +321,19 @@ SAYINGS = {
     "Profile(lambda r: np.sin(1e3 * r) * 1e-3, r_max=5e-3).contact_radius(8e-4)": "annular",
     "Profile(lambda r: r**2, r_max=1e-3).contact_radius(1.0)": "d = 1 m is deeper than",
     "CappedParaboloid(1.0, 2.0, 1e-3)": "R2 must not exceed R1 = 1 m, got 2 m",
+    "SampledProfile(GRID[1:], GRID[1:])": "r must begin at 0, the tip from which the depth counts, got 1e-05 m",
+    "SampledProfile(GRID - 1e-3, GRID)": "got -0.001 m: give one side of a mirrored profile",
+    "SampledProfile(GRID[::-1], GRID)": "sort the points by r",
+    "SampledProfile(np.repeat(GRID, 2), np.repeat(GRID, 2))": "r must ascend, got 0 and then 0",
+    "SampledProfile(GRID, GRID**2, kinks=[1.001e-3])": "got 0.001001 m: the nearest is 0.001 m",
+    "SampledProfile(GRID, -(GRID**2))": "annular contact",
+    "SampledProfile(GRID, 0 * GRID, smoothing=1e-7)": "f is 0 m at every r, a flat face: use FlatPunch(a=0.002)",
+    "SampledProfile(GRID, 0 * GRID + 1e-3)": "f is 0.001 m at every r, a flat face",
+    "FromForce(GRID, GRID**0.9, 2e6)": "falls at d = 1e-05 m",
+    "FromForce(GRID, np.minimum(GRID, 1e-3 + (GRID - 1e-3) / 2), 2e6)": "F must rise more and more steeply",
+    "FromForce(GRID, GRID * 0, 2e6, smoothing=1.0)": "F must be positive for d > 0",
+    "FromForce(GRID + 1e-9, GRID, 2e6)": "d and F must begin with 0, got 1e-09 m and 0 N",
+    "FromForce(GRID[:6], GRID[:6], 2e6)": "at least 7 numbers",
     "SampledProfile([0, 1e-3], [0, 1e-5])": "at least 6 numbers",
     "SampledProfile([0, 1e-3], [0, 1e-6, 2e-6])": "f must have as many numbers as r",
     "FromForce(NINE, -NINE, 1e6)": "F must ascend",
@@ -333,6 +365,9 @@ SAYINGS = {
     "PeriodicMotion.from_acceleration([0, 1, 2], [0, 1, 0], u_z0=1e-5)": "t must be a list of 8 instants or more",
     "displacement_of(T**1.1, WAVE, high_pass=5.0)": "t must rise in equal steps, but sample",
     "LoadOscillation(0.1, 0.2, 300)": "dF_z = 0.2 N must be less than F_z0 = 0.1 N where nothing has mass",
+    "SpringPull(k_x=2e4, c_y=1.0)": "give k_y",
+    "replace(CASE, shake=InPlaneOscillation(314.0, du_y=1e-6, at='pull'))": "guided there",
+    "FrictionData([1.0, 2.0], [0.3])": "cof must be a list of as many numbers as v_0",
     "SpringPull(0)": "for a rigid pull use RigidPull()",
     "SpringPull(kx=2e4)": "did you mean k_x?",
     # a contact
@@ -348,6 +383,8 @@ SAYINGS = {
     "slide(CASE, -1e-3)": "the other way is the same where nothing shakes in the plane",
     "slide(CASE, 1e-3, n_periods=200_000, record=200_000)": "more than memory holds",
     "slide(CASE, 1e-15)": "rounding hides the motion",
+    "slide(replace(SHAKEN, shake=InPlaneOscillation(314.0, 1e7)), 1.0)": "the shake is more than",
+    "no_load_velocity(ON_RESONANCE)": "undamped natural frequency",
     "slide(CASE, 1e25)": "full slip but for rounding; lower it",
     "cof_curve(CASE, [5e-4], n_springs=10**8)": "more than memory holds",
     "partial_slip(BALL, RUBBER, 0.5, -1e-6, 1e-7)": "u_z0 must be positive",
@@ -391,6 +428,8 @@ SAYINGS = {
     'sweep(CASE, {"oscillation": [LoadOscillation(1, 0.5, 3)], "alpha": [0.1]})': "alpha sets oscillation.du_z, which",
     'sweep(CASE, {"indenter": [Cone(theta=0.1)], "indenter.R": [1e-3]})': "Cone has none; did you mean indenter",
     'fit(CASE, SOME, "mu_0")': "parameters must be a list of names",
+    'fit(RIGID, SOME, ["omega_0/omega"])': "cannot be varied: omega_0/omega: RigidPull has no k_x",
+    'fit(replace(RIGID, material=Elastic(3e6, 0.4)), SOME, ["T"])': "T cannot be varied: T: Elastic has no tau",
     "fit(CASE, SOME, [])": "must name at least one",
     "fit(CASE, SOME, [3])": "parameters must be names",
     'fit(CASE, SOME, ["theta"])': "theta is no parameter of this case",
@@ -426,6 +465,171 @@ SAYINGS = {
     "closed_forms.rigid_pull.average_friction(RIGID, NAN)": "v_0 must be finite",
     "closed_forms.rigid_pull.average_friction(replace(RIGID, material=SOLID), 1e-4)": "harmonic depth",
     "closed_forms.rigid_pull.average_friction(replace(RIGID, oscillation=LOAD), 1e-4)": "harmonic depth",
+    # spectra, waveforms and their laws
+    "Spectrum((1.0, 2.0), (1.0,))": "of one length, two or more, got 2 and 1",
+    "Spectrum((1.0,), (1.0,))": "two or more",
+    "Spectrum((2.0, 2.0), (1.0, 1.0))": "f must rise",
+    "Spectrum((1.0, 2.0), (0.0, 0.0))": "nothing vibrates",
+    "Spectrum.band(0.0, 1.0, 2.0)": "rms must be positive",
+    "Spectrum.band(1e-6, 2.0, 1.0)": "f_high must be above f_low",
+    "Spectrum.band(1e-6, -1.0, 1.0)": "f_low must not be negative",
+    "Spectrum.band(1e-6, 1.0, INF)": "f_high must be a finite number",
+    "BAND.moment(7)": "at most 6",
+    "BAND.moment(0.5)": "whole number",
+    "BAND.realisation(128, 7e-3)": "too long for frequencies up to 80 Hz",
+    "BAND.realisation(128, 1e-3, seed=-1)": "seed must be at least 0",
+    'BAND.realisation(128, 1e-3, seed="x")': "seed must be a whole number",
+    "BAND.realisation(1, 1e-3)": "n_t must be at least 2",
+    "waveforms.pulse(2e-5, 5e-6, 300.0, n_harmonics=4, width=1.0)": "width must lie between 0 and 1",
+    "waveforms.pulse(2e-5, 0.0, 300.0, n_harmonics=4, width=0.5)": "du_z must be positive",
+    "waveforms.pulse(2e-5, 5e-6, 300.0, n_harmonics=0, width=0.5)": "n_harmonics must be at least 1",
+    "waveforms.pulse(-1.0, 5e-6, 300.0, n_harmonics=4, width=0.5)": "never touches",
+    "waveforms.pulse(2e-5, 5e-6, 0.0, n_harmonics=4, width=0.5)": "omega must be positive",
+    "laws.waveform_loss(np.sin, -1.0)": "beta must not be negative",
+    "laws.waveform_loss(np.sin, NAN)": "beta must be finite",
+    "laws.waveform_loss(np.ones(5), 1.0)": "constant",
+    "laws.waveform_loss(lambda x: 0 * x, 1.0)": "constant",
+    "laws.waveform_loss(ConstantDepth(1e-6), 1.0)": "constant",
+    "laws.waveform_loss([1.0], 1.0)": "at least 2 samples",
+    "laws.waveform_loss([1.0, NAN], 1.0)": "w must be finite",
+    "laws.waveform_loss(lambda x: np.sin(1e9 * x**2), 1.0)": "too rough",
+    "laws.waveform_loss(lambda x: 1.0, 1.0)": "in the shape of its phases",
+    'laws.waveform_loss("saw", 1.0)': "w must be",
+    "laws.waveform_critical(lambda x: np.where(x == 0.5, INF, x))": "w",
+    "laws.steepest_waveform(0)": "at least 1",
+    "laws.best_waveform(2, -1.0)": "beta must not be negative",
+    "random_cof('case.toml', BAND, 1e-4)": "must be a SlidingContact",
+    "random_cof(CASE, BAND, 1e-4)": "a rigid pull, got pull = SpringPull",
+    "random_cof(replace(RIGID, shake=InPlaneOscillation(314.0, 1e-6)), BAND, 1e-4)": "shake = InPlaneOscillation",
+    "random_cof(replace(RIGID, oscillation=LOAD), BAND, 1e-4)": "under a load",
+    "random_cof(replace(RIGID, oscillation=NormalOscillation(-1e-3, 2e-3, 600.0)), BAND, 1e-4)": "never touches",
+    "random_cof(RIGID, [1.0, 2.0], 1e-4)": "spectrum must be of kind Spectrum",
+    "random_cof(RIGID, BAND, 0.0)": "v_0 must be positive",
+    "random_cof(RIGID, BAND, [1e-4, NAN])": "v_0 must be finite",
+    "random_cof(RIGID, BAND, [])": "a list of velocities",
+    "random_cof(RIGID, BAND, [[1e-4]])": "a list of velocities",
+    "random_cof(RIGID, BAND, 1e-11)": "raise v_0",
+    "random_cof(replace(RIGID, material=Prony(3e6, [(3e6, 1e28)], 0.5)), BAND, 1e-4)": "lower it to",
+    "random_cof(RIGID, BAND, 1e-4, n_realisations=7)": "n_realisations must be at least 8",
+    "random_cof(RIGID, BAND, 1e-4, n_realisations=8.0)": "n_realisations must be a whole number",
+    "random_cof(RIGID, BAND, 1e-4, seed=-1)": "seed must be at least 0",
+    "random_cof(RIGID, BAND, 1e-4, seed=None)": "seed must be a whole number",
+    "random_cof(RIGID, BAND, 1e-4, n_springs=16)": "n_springs must be at least 32",
+    # laws
+    "laws.late_return(-1.0, 0.0)": "never touches",
+    "laws.touch_depth(1.0, 0.0)": "phase",
+    "laws.amplitude_limit(-1.0)": "T must not be negative",
+    "laws.edge_band(1.0)": "v_hat",
+    "laws.rise_of_lost_punch(2.0, 1.0)": "depth",
+    "laws.onset(CASE)": "flat punch",
+    "laws.blow(LOST)": "T = 0",
+    "laws.blow(replace(LOST, material=KelvinVoigt(3e6, 0.5, 0.03), pull=SpringPull(1e4, 0.1, 1e6)))": "damping ratio",
+    "laws.half_a_blow(replace(CASE, pull=SpringPull(k_x=1e4)))": "m = 0",
+    "laws.lock_in(1)": "at least 2",
+    "laws.first_order(replace(CASE, oscillation=LOAD))": "harmonic",
+    "laws.coupling_loss(SHAKEN)": "shake in the plane",
+    "laws.coupled_critical_velocity(SHAKEN)": "shake in the plane",
+    "laws.first_order(replace(SHAKEN, pull=SLED))": "shake in the plane",
+    "laws.lost_under_shake(SHAKEN, 1e-4)": "this law is that of an",
+    "laws.lost_under_shake(replace(SHAKEN, shake=InPlaneOscillation(314.0, 1e-4)), 1e-4)": "this law is that of an",
+    "laws.excess_across(replace(CROSSED, material=RUBBER), 1e-4)": "only elastic",
+    "closed_forms.rigid_pull.small_velocity(replace(LOST, material=RUBBER, pull=RigidPull()))": "lost entirely",
+    "closed_forms.rigid_pull.near_critical(TOUCHING)": "open at the instant of fastest approach",
+    "laws.random_friction(CASE, BAND, 1e-3)": "use random_cof",
+    "laws.random_friction(replace(RIGID, shake=InPlaneOscillation(314.0, 1e-6)), BAND, 1e-3)": "use random_cof",
+    "laws.random_friction(replace(RIGID, material=SOLID), BAND, 1e-3)": "use random_cof",
+    "laws.random_friction(replace(RIGID, oscillation=NormalOscillation(-1e-6, 2e-6, 3)), BAND, 1e-3)": "use random_cof",
+    # the half-space
+    "half_space.slide(RIGID, -1e-4)": "v_0 must be positive",
+    "half_space.slide(RIGID, 0)": "v_0 must be positive",
+    "half_space.slide(RIGID, NAN)": "v_0 must be a finite number",
+    'half_space.slide(RIGID, "1e-4")': "v_0 must be a real number",
+    'half_space.slide("case", 1e-4)': "must be a SlidingContact",
+    "half_space.slide(RIGID, 1e-4, coupled=1)": "must be True or False",
+    "half_space.slide(RIGID, 1e-4, cells=7)": "cells must be at least 8",
+    "half_space.slide(RIGID, 1e-4, steps_per_period=7)": "steps_per_period must be at least 8",
+    "half_space.slide(RIGID, 1e-4, n_periods=0)": "n_periods must be at least 1",
+    'half_space.slide(RIGID, 1e-4, start="full")': 'start must be "full_slip" or "rest"',
+    "half_space.slide(RIGID, 1e-4, limit_s=0)": "limit_s must be positive",
+    "half_space.curve(RIGID, [])": "must be a list of velocities",
+    # studies
+    'STUDY["coff"]': "the study has no quantity 'coff'; did you mean cof?",
+    'STUDY["zzz"]': "there are cof, v_c",
+    "STUDY[0]": "there are cof, v_c",
+    'STUDY.select({"v_0": 0.5})': "'v_0' is no axis of the study; there are v_0/v_c, ind",
+    'STUDY.select({"v_0/v_c": 0.49})': "v_0/v_c has no value 0.49; the nearest is 0.5",
+    'STUDY.select({"v_0/v_c": None})': "v_0/v_c has numbers for values, got None",
+    'STUDY.select({"indenter": Cone(0.06)})': "no value Cone",
+    'STUDY.select("v_0/v_c")': "values must map paths to values",
+    'sweep(SHAKEN, {"chi": [0.5], "shake.du_x": [1e-6]})': "chi and shake.du_x set the same",
+    'sweep(CROSSED, {"eta": [0.5], "shake.du_y": [1e-6]})': "eta and shake.du_y set the same",
+    'TABLE.plot_map("v_c")': "the study has 3",
+    'TABLE.select({"T": 0.1}).plot_map("v_c", x="T")': "no axis of the study",
+    'TABLE.select({"T": 0.1}).plot_map("cof")': "no quantity",
+    'STUDY.plot_map("cof", x="v_0/v_c")': "two axes of numbers",
+    'STUDY.select({"v_0/v_c": 0.5}).plot()': "no axis of numbers",
+    'TABLE.plot_multiples("v_c", over="T", columns=0)': "columns must be at least 1",
+    'TABLE.select({"T": 0.1}).plot_multiples("v_c", over="alpha", levels=[0.3])': "levels is for maps",
+    # records of motion
+    "MOVED(t=[0, 2, 1])": "t must rise, got 1 s after 2 s",
+    "MOVED(t=[0, 1, 1])": "t must rise",
+    "MOVED(t=[0, NAN, 2])": "finite",
+    "MOVED(t=[0], u_x=[0], u_z=[1e-6])": "two instants",
+    "MOVED(t=np.zeros((3, 2)))": "two instants",
+    "MOVED(u_x=[0, 1e-6])": "u_x must have the shape",
+    "MOVED(u_x=[0, NAN, 0])": "finite",
+    'MOVED(u_x=["a", "b", "c"])': "real numbers",
+    "MOVED(u_y=[0, 0, 0, 0])": "u_y must have the shape",
+    "MOVED(u_z=[0, INF, 0])": "finite",
+    "MOVED(u_z=-1e-6)": "never touches",
+    "MOVED(F_z=1.0)": "not both",
+    "MOVED(u_z=None)": "not both",
+    "MOVED(u_z=None, F_z=[0.01, -0.01, 0.01])": "F_z must not be negative",
+    "MOVED(u_z=None, F_z=0.0)": "never touches",
+    "MOVED(indenter=Profile(np.square, r_max=1e-4), u_z=1e-6)": "deeper",
+    "MOVED(material=Prony(0.0, [(1e6, 1e-3)], 0.5))": "E_inf = 0",
+    "MOVED(material=Prony(0.0, [(1e6, 1e-3)], 0.5), u_z=None, F_z=1.0)": "E_inf = 0",
+    "MOVED(n_springs=16)": "n_springs",
+    "MOVED(mu_0=-0.1)": "mu_0",
+    "MOVED(indenter=None)": "indenter",
+    "MOVED(material=3e6)": "material",
+    # rigs
+    "RIG(load=None, load_amplitude=0.1)": "give the load once",
+    "RIG(load_grams=3.0, load_amplitude=0.1)": "give the load once",
+    "RIG(load=-1.0, load_amplitude=0.1)": "load must be positive",
+    "RIG(frequency=0.0, load_amplitude=0.1)": "frequency must be positive",
+    "RIG(load_amplitude=0.1, acceleration=3.0)": "give one of them",
+    "RIG()": "nothing vibrates",
+    "RIG(load_amplitude=0.1, k_x=2e4)": "m is missing",
+    "RIG(load_amplitude=0.1, c_x=2.0)": "give k_x",
+    "RIG(load_amplitude=0.1, k_x=2e4, m=0.2)": "Say load_rides=True",
+    "RIG(load_amplitude=0.1, m=0.2)": "Say load_rides=True",
+    "RIG(load_amplitude=0.1, load_rides=True)": "give the mass m of the sled",
+    "RIG(load_amplitude=0.1, m=0.1, load_rides=False)": "m has no effect under a rigid pull",
+    "RIG(depth_amplitude=1e-6, k_x=2e4, m=0.1, load_rides=True)": "is about an oscillating load",
+    'RIG(load_amplitude=0.1, k_x=2e4, m=0.1, load_rides="no")': "True or False",
+    "RIG(shake=InPlaneOscillation(628.0, 1e-6))": "nothing vibrates at the frequency of 50 Hz",
+    "RIG(load_amplitude=2.0)": "must be less than F_z0",
+    "RIG(depth_amplitude=NAN)": "depth_amplitude must be",
+    "RIG(load=1e6, depth_amplitude=1e-6)": "carries on this material",
+    "RIG(load_amplitude=0.1, tan_delta=-0.1)": "tan_delta must not be negative",
+    "RIG(material=RUBBER, load_amplitude=0.1, tan_delta=0.1)": "tan_delta turns an Elastic",
+    'RIG(depth_amplitude=1e-6, hold="force")': 'hold must be "depth" or "load"',
+    'RIG(load_amplitude=0.1, hold="load")': "hold is about a driven depth",
+    # keywords
+    "slide(None, v=1)": "slide takes no v; did you mean v_0?",
+    "rig(None, None, 0.3, frequency=5, amplitude=1e-6)": "did you mean load_amplitude or depth_amplitude?",
+    "cof_curve(None, 1, springs=40)": "cof_curve takes no springs; did you mean n_springs?",
+    'sweep(None, {}, quantity=["cof"])': "sweep takes no quantity; did you mean quantities?",
+    # ends of shapes
+    "Sphere(5e-3).profile_1d(5e-3)": "Sphere is touched within its equator only, x < 0.005 m",
+    "Sphere(5e-3).profile_3d([0, 5.5e-3])": "Sphere ends at its equator r = 0.005 m, got 0.0055 m",
+    "Sphere(5e-3).force(1.0, 1)": "d = 1 m is deeper than Sphere can be pressed",
+    "Ellipsoid(5e-3, 100).profile_area(0.02)": "Ellipsoid is touched within its equator only, x < 0.01 m",
+    "Ellipsoid(5e-3, 100).contact_radius(1.0)": "Ellipsoid can be pressed",
+    "ConstantPressure(1e-3, 1e-5).stiffness(2e-5, 1)": "d_0 = 1e-05 m its whole face touches",
+    "ConstantPressure(1e-3, 1e-5).profile_3d(2e-3)": "ConstantPressure ends at r = 0.001 m, got 0.002 m",
+    "ConcavePunch(1e-3, 1).profile_1d(2e-3)": "ConcavePunch ends at r = 0.001 m, got 0.002 m",
     # files
     'read_case("nofile.toml")': "nofile.toml: cannot be read: No such file",
     'Prony.read("arms.txt")': "arms.txt",
@@ -439,7 +643,7 @@ SAYINGS = {
 
 @pytest.mark.parametrize("saying", SAYINGS)
 def test_a_slip_is_answered_in_words(saying):
-    message = str(refused(lambda: eval(saying, vars(mdr) | globals()), (TypeError, ValueError, OSError)))
+    message = str(refused(lambda: eval(saying, vars(mdr) | globals()), (TypeError, ValueError, OSError, KeyError)))
     assert SAYINGS[saying] in message, message
 
 

@@ -62,27 +62,3 @@ def test_a_seed_is_a_history_however_finely_it_is_sampled():
     assert_allclose(BAND.realisation(1024, 1e-3 / 8, seed=5, k=3)[::8], once, rtol=0, atol=1e-19)
     for other in ({"seed": 4, "k": 3}, {"seed": 5, "k": 2}):
         assert not np.any(np.isclose(BAND.realisation(128, 1e-3, **other), once, rtol=1e-6, atol=0))
-
-
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: mdr.Spectrum((1.0, 2.0), (1.0,)), "of one length, two or more, got 2 and 1"),
-        (lambda: mdr.Spectrum((1.0,), (1.0,)), "two or more"),
-        (lambda: mdr.Spectrum((2.0, 2.0), (1.0, 1.0)), "f must rise"),
-        (lambda: mdr.Spectrum((1.0, 2.0), (0.0, 0.0)), "nothing vibrates"),
-        (lambda: mdr.Spectrum.band(0.0, 1.0, 2.0), "rms must be positive"),
-        (lambda: mdr.Spectrum.band(1e-6, 2.0, 1.0), "f_high must be above f_low"),
-        (lambda: mdr.Spectrum.band(1e-6, -1.0, 1.0), "f_low must not be negative"),
-        (lambda: mdr.Spectrum.band(1e-6, 1.0, float("inf")), "f_high must be a finite number"),
-        (lambda: BAND.moment(7), "at most 6"),
-        (lambda: BAND.moment(0.5), "whole number"),
-        (lambda: BAND.realisation(128, 7e-3), "too long for frequencies up to 80 Hz"),
-        (lambda: BAND.realisation(128, 1e-3, seed=-1), "seed must be at least 0"),
-        (lambda: BAND.realisation(128, 1e-3, seed="x"), "seed must be a whole number"),
-        (lambda: BAND.realisation(1, 1e-3), "n_t must be at least 2"),
-    ],
-)
-def test_what_is_no_spectrum_is_refused(call, words):
-    with pytest.raises((TypeError, ValueError), match=words):
-        call()

@@ -75,10 +75,3 @@ def test_extreme_velocities_of_a_rigid_contact():
     assert mdr.laws.rigid_across(-1e160) == -1.0
     assert 0 <= mdr.laws.rigid_across(1e-170) < 1e-160
     assert mdr.laws.rigid_across(0.0) == 0.0
-
-
-def test_only_elastic_contacts_have_the_law_of_what_springs_are_too_high_by():
-    shake, depth = mdr.InPlaneOscillation(300.0, du_y=4e-6), mdr.ConstantDepth(DEPTH)
-    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e-3), 0.4, depth, shake=shake)
-    with pytest.raises(ValueError, match="only elastic"):
-        mdr.laws.excess_across(case, 1e-4)

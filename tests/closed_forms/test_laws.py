@@ -148,27 +148,6 @@ def test_the_error_under_load_is_a_maximum():
     assert laws.load_error(eps, n) == pytest.approx(most - 1, rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("ask", "match"),
-    [
-        (lambda: laws.late_return(-1.0, 0.0), "never touches"),
-        (lambda: laws.touch_depth(1.0, 0.0), "phase"),
-        (lambda: laws.amplitude_limit(-1.0), "T must not be negative"),
-        (lambda: laws.edge_band(1.0), "v_hat"),
-        (lambda: laws.rise_of_lost_punch(2.0, 1.0), "depth"),
-        (lambda: laws.onset(case_of(mdr.Cone(theta=0.05), 1.0, 1.5)), "flat punch"),
-        (lambda: laws.blow(case_of(alpha=1.5)), "T = 0"),
-        (lambda: laws.blow(case_of(T=9.0, alpha=1.5, pull=mdr.SpringPull(k_x=1e4, m=0.1, c_x=1e6))), "damping ratio"),
-        (lambda: laws.half_a_blow(case_of(pull=mdr.SpringPull(k_x=1e4))), "m = 0"),
-        (lambda: laws.lock_in(1), "at least 2"),
-        (lambda: laws.first_order(replace(case_of(), oscillation=mdr.LoadOscillation(1.0, 0.1, OMEGA))), "harmonic"),
-    ],
-)
-def test_what_a_law_does_not_know_is_refused(ask, match):
-    with pytest.raises(ValueError, match=match):
-        ask()
-
-
 def test_a_narrow_band_loses_what_sines_of_rayleigh_amplitudes_lose():
     from scipy.integrate import quad
 
@@ -215,19 +194,3 @@ def test_random_friction_is_that_of_its_lag(T):
     v_0 = 1.2 * case.mu_0 * case.material.mindlin_ratio * band.rms_velocity
     lag = band.moment(2) / np.sqrt(band.moment(4)) * laws.random_loss(1.2, T)
     assert laws.random_friction(case, band, v_0) == pytest.approx(0.5 * (1 - lag / DEPTH), rel=1e-12)  # F = k d
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"pull": BODY},
-        {"shake": mdr.InPlaneOscillation(OMEGA, 1e-6)},
-        {"material": mdr.StandardLinearSolid(1e6, 1e6, 1e-3, 0.5)},
-        {"oscillation": mdr.NormalOscillation(-1e-6, 2e-6, OMEGA)},
-    ],
-    ids=lambda change: next(iter(change)),
-)
-def test_random_friction_refuses_what_it_does_not_know(change):
-    case = replace(case_of(), **{"pull": mdr.RigidPull(), **change})
-    with pytest.raises(ValueError, match="use random_cof"):
-        laws.random_friction(case, mdr.Spectrum.band(1e-6, 50.0, 60.0), 1e-3)

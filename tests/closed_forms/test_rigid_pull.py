@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.closed_forms import rigid_pull
-from mdr.closed_forms.rigid_pull import average_friction, near_critical, small_velocity
+from mdr.closed_forms.rigid_pull import average_friction
 from mdr.indenters.mapping.quadrature import double_exponential
 
 KELVIN_BUDGET, ELASTIC_BUDGET = 1e-8, 1e-10
@@ -102,16 +102,6 @@ def test_the_stick_of_the_punch_in_closed_form():
     phi_2 = float(reference.elastic_stick(np.array([depth_ratio]), v_hat)[1][0])
     share = (depth_ratio * (phi_2 - phi_1) + math.sin(phi_2) - math.sin(phi_1)) / (2 * math.pi * depth_ratio)
     assert_allclose(friction(contact("flat", depth_ratio), v_hat)[2], share, rtol=1e-12)
-
-
-# --- what follows from it ---------------------------------------------------------------------------------------
-
-
-def test_asymptotes_that_are_not_known_are_refused():
-    with pytest.raises(ValueError, match="lost entirely"):
-        small_velocity(contact("flat", 0.5, 1.0))
-    with pytest.raises(ValueError, match="open at the instant of fastest approach"):
-        near_critical(contact("cone", -0.2))
 
 
 # --- the curve, and wrong input ---------------------------------------------------------------------------------

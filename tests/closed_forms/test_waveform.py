@@ -164,31 +164,3 @@ def test_one_harmonic_is_the_sine():
     loss, cos, sin = laws.best_waveform(1, 1.0)
     assert loss == pytest.approx(deficit(1 / (2 * np.pi)), abs=4e-11)
     np.testing.assert_allclose(np.hypot(cos, sin), 1, rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("ask", "match"),
-    [
-        (lambda: laws.waveform_loss(sine, -1.0), "beta must not be negative"),
-        (lambda: laws.waveform_loss(sine, np.nan), "beta must be finite"),
-        (lambda: laws.waveform_loss(np.ones(5), 1.0), "constant"),
-        (lambda: laws.waveform_loss(lambda x: 0 * x, 1.0), "constant"),
-        (lambda: laws.waveform_loss(mdr.ConstantDepth(1e-6), 1.0), "constant"),
-        (lambda: laws.waveform_loss([1.0], 1.0), "at least 2 samples"),
-        (lambda: laws.waveform_loss([1.0, np.nan], 1.0), "w must be finite"),
-        (lambda: laws.waveform_loss(lambda x: np.sin(1e9 * x**2), 1.0), "too rough"),
-        (lambda: laws.waveform_critical(lambda x: 1 / (x - 0.5)), "w"),
-        (lambda: laws.steepest_waveform(0), "at least 1"),
-        (lambda: laws.best_waveform(2, -1.0), "beta must not be negative"),
-    ],
-)
-def test_what_is_no_waveform_is_refused(ask, match):
-    with np.errstate(divide="ignore"), pytest.raises(ValueError, match=match):
-        ask()
-
-
-def test_what_answers_in_another_shape_is_refused():
-    with pytest.raises(TypeError, match="in the shape of its phases"):
-        laws.waveform_loss(lambda x: 1.0, 1.0)
-    with pytest.raises(TypeError, match="w must be"):
-        laws.waveform_loss("saw", 1.0)

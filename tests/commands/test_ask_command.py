@@ -46,16 +46,6 @@ def test_find(capsys, sled):
     assert "none: v_c is 50.265 mm/s" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [(["du_y", "--v-c", "1"], "du_y is no parameter"), (["du_z", "--v-0", "1"], "give one wish"),
-     (["du_z", "--v-c", "1", "--within", "1 s", "2 s"], "--within wants m (or cm"), (["E"], "give one wish")],
-)  # fmt: skip
-def test_what_cannot_be_asked(capsys, sled, options, words):
-    assert main(["find", sled, *options]) == 2
-    assert words in capsys.readouterr().err
-
-
 def test_tolerance(capsys, sled, tmp_path):
     folder = tmp_path / "out"
     assert main(["tolerance", sled, "--v-0", "10mm/s", "--by", "5%", "-o", str(folder), "--json"]) == 0
@@ -67,4 +57,3 @@ def test_tolerance(capsys, sled, tmp_path):
     assert {path.name for path in folder.iterdir()} == {"tolerance.csv", "tolerance.png", "tolerance.svg"}
     assert main(["tolerance", sled, "--v-0", "10mm/s", "--fields", "load"]) == 0
     assert "load" in capsys.readouterr().out
-    assert main(["tolerance", sled, "--v-0", "10mm/s", "--fields", "lode"]) == 2

@@ -41,36 +41,6 @@ def test_a_load_knows_its_depth(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["u_z_max"] == pytest.approx(1.05 * mdr.resolved(load).u_z_max)
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["-o", "contact.txt"], "must end in .h"),
-        (["-o", "contact"], "must end in .h"),
-        (["-o", "2nd.h"], "a word for names in C"),
-        (["-o", "a-b.fmu"], "a word for names in C"),
-        (["-o", "_a.h"], "a word for names in C"),
-        (["-o", "größe.h"], "a word for names in C"),
-        (["-o", "a" * 41 + ".h"], "a word for names in C"),
-        (["-o", "no/such/folder/a.h"], "there is no folder"),
-        (["-o", "a.h", "--u-z-max", "-1e-6"], "a depth above zero"),
-        (["-o", "a.h", "--u-z-max", "nan"], "a depth above zero"),
-        (["-o", "a.h", "--u-z-max", "deep"], "a depth above zero"),
-        (["-o", "a.h", "--n-springs", "2"], "a whole number from 16"),
-        (["-o", "a.h", "--n-springs", "100000"], "a whole number from 16"),
-        ([], "required"),
-    ],
-)
-def test_what_is_refused(tmp_path, monkeypatch, capsys, words, said):
-    monkeypatch.chdir(tmp_path)
-    try:
-        status = main(["export", EXAMPLE, *words])
-    except SystemExit as end:
-        status = end.code
-    assert status == 2
-    assert said in capsys.readouterr().err
-    assert not list(tmp_path.iterdir())
-
-
 def test_arms_are_refused_and_nothing_is_written(tmp_path, capsys):
     arms = mdr.StandardLinearSolid(E_inf=3e6, E_1=1e6, tau_1=1e-3, nu=0.5)
     case = tmp_path / "arms.toml"

@@ -47,24 +47,6 @@ def test_machines_are_told_what_is_not_determined(files, capsys):
     assert told["case"].startswith("mu_0 = 0.")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--free", "taw"], "taw is no parameter of this case; did you mean tau?"),
-        (["--free", "mu_0", "--bounds", "mu_0=0.1-1"], "must be name=low:high, such as material.tau=1e-5:1e-1"),
-        (["--free", "mu_0", "-o", "data.csv"], "data.csv: no folder to write to"),
-        ([], "the following arguments are required: --free"),
-    ],
-)
-def test_wrong_input_has_status_2(files, capsys, arguments, words):
-    try:
-        status = main([*files, *arguments])
-    except SystemExit as end:
-        status = end.code
-    assert status == 2
-    assert words in capsys.readouterr().err
-
-
 def test_a_fault_of_the_data_names_their_file(files, capsys):
     Path("data.csv").write_text(DATA.replace("0.49", "high"))
     assert main([*files, "--free", "mu_0"]) == 2

@@ -392,23 +392,56 @@ WRONG = [
       for v in ("0", "-0.01", "-1%", "nan", "inf", "1", "100%", "nan%", "1%%", "%", "", "one", "0,01")),
     ("velocity {study}", "[axes] makes it a study file, not a case file; `mdr sweep` reads it"),
     ("case --example coen", "did you mean Cone"),
+    *((f"export {{punch}} -o {one}", "must end in .h") for one in ("contact.txt", "contact")),
+    *((f"export {{punch}} -o {one}.h", "a word for names in C") for one in ("2nd", "a-b", "_a", "größe", "a" * 41)),
+    ("export {punch} -o no/such/folder/a.h", "there is no folder"),
+    *((f"export {{punch}} -o a.h --u-z-max {one}", "a depth above zero") for one in ("-1e-6", "nan", "deep")),
+    *((f"export {{punch}} -o a.h --n-springs {n}", "a whole number from 16") for n in ("2", "100000")),
+    ("export {punch}", "required"),
+    ("half-space {punch} --v-0 -1e-4", "--v-0 must be above zero"),
+    ("half-space {punch} --v-0 1e-4 --cells 3", "a whole number from 8"),
+    ("fit {punch} {data} --free taw", "taw is no parameter of this case"),
+    ("fit {punch} {data} --free mu_0 --bounds mu_0=0.1-1", "must be name=low:high, such as material.tau=1e-5:1e-1"),
+    ("fit {punch} {data} --free mu_0 -o {data}", "data.csv: no folder to write to"),
+    ("fit {punch} {data}", "the following arguments are required: --free"),
+    ("find {punch} du_y --v-c 1", "du_y is no parameter"),
+    *((f"find {{punch}} {words}", "give one wish") for words in ("du_z --v-0 1", "E")),
+    ("find {punch} du_z --v-c 1 --within '1 s' '2 s'", "--within wants m (or cm"),
+    ("tolerance {punch} --v-0 10mm/s --fields lode", "lode"),
+    *((f"explore --address {one}", "must be localhost:8080") for one in ("8080:", "ftp://x", "http://",
+      "localhost:99999")),
+    ("explore --port 65536", "must be a whole number from 0 to 65535, got '65536'"),
+    ("sweep {study}", "mdr: the study would be lost: give -o folder, --store folder, or --json"),
+    ("sweep {study} -o study.txt", "mdr: study.txt: a study is written as .nc or .csv"),
+    ("sweep {study} -o /nowhere/study.nc", "mdr: /nowhere/study.nc: there is no folder /nowhere"),
+    ("sweep {study} --store {punch}", ": is a file; a store is a folder"),
+    *((f"sweep {{study}} --store store -o {one}", f"mdr: {words}: the store keeps its own study.nc there")
+      for one, words in (("store", "store"), ("./store/study.nc", "store/study.nc"))),
+    ("sweep {study} --json --shard 1/2", "mdr: a shard needs a store"),
+    ("sweep {study} --store store --shard 3/2", "mdr: shard must be k/n"),
     ("'no such'", "invalid choice: 'no such'"),
     *((nothing, word) for nothing in ("", "--json") for word in ("velocity", "verdict")),  # the help
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("line", "words"), WRONG, ids=[line[:40] or "nothing" for line, _ in WRONG])
-def test_what_cannot_be_asked_is_status_2_and_found_before_any_work(capsys, monkeypatch, punch, resonant, line, words):
-    for work in ("slide", "cof_curve", "verdict"):
-        monkeypatch.setattr(mdr, work, None)
+def test_what_cannot_be_asked_is_status_2_and_found_before_any_work(
+    capsys, monkeypatch, tmp_path, punch, resonant, line, words
+):
+    for work in ("slide", "cof_curve", "verdict", "studies.points.compute", "half_space.slide"):
+        monkeypatch.setattr(f"mdr.{work}", None)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "data.csv").write_text("v_0 [mm/s], cof, error\n0.1, 0.30, 0.01\n0.4, 0.36, 0.01\n0.8, 0.39, 0.01\n")
+    before = set(tmp_path.iterdir())
     study = Path(EXAMPLE).with_name("study.toml")
     try:
-        status = main(shlex.split(line.format(punch=punch, resonant=resonant, study=study)))
+        status = main(shlex.split(line.format(punch=punch, resonant=resonant, study=study, data="data.csv")))
     except SystemExit as end:
         status = end.code
     out, err = capsys.readouterr()
     assert (status, out) == (2, "")
     assert words in err
+    assert set(tmp_path.iterdir()) == before
 
 
 @pytest.mark.parametrize(

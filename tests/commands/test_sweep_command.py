@@ -113,26 +113,6 @@ def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ([], "the study would be lost: give -o folder, --store folder, or --json"),
-        (["-o", "study.txt"], "study.txt: a study is written as .nc or .csv"),
-        (["-o", "/nowhere/study.nc"], "/nowhere/study.nc: there is no folder /nowhere"),
-        (["--store", "study.toml"], "study.toml: is a file; a store is a folder"),
-        (["--store", "store", "-o", "store"], "store: the store keeps its own study.nc there"),
-        (["--store", "store", "-o", "./store/study.nc"], "store/study.nc: the store keeps its own study.nc there"),
-        (["--json", "--shard", "1/2"], "a shard needs a store"),
-        (["--store", "store", "--shard", "3/2"], "shard must be k/n"),
-    ],
-)
-def test_what_cannot_be_is_found_before_the_work(file, capsys, options, words, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("mdr.studies.points.compute", None)
-    assert main(["sweep", file, *options]) == 2
-    assert f"mdr: {words}" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
     ("name", "stored", "words"),
     [("mdr.studies.engine.run", True, "sweep: interrupted; 0 of 4 chunks are safe in"),
      ("mdr.studies.engine.run", True, "mdr: interrupted before it was done"),

@@ -188,42 +188,6 @@ def test_depth_and_load_are_each_others_inverse():
         assert_allclose(two.F_x[start:], one.F_x[start:], atol=2e-2 * MU_0 * one.F_z.max())
 
 
-HOSTILE = {
-    "t falls": ({"t": [0, 2, 1]}, "t must rise, got 1 s after 2 s"),
-    "t stands": ({"t": [0, 1, 1]}, "t must rise"),
-    "t NaN": ({"t": [0, np.nan, 2]}, "finite"),
-    "one instant": ({"t": [0], "u_x": [0], "u_z": [1e-6]}, "two instants"),
-    "a table": ({"t": np.zeros((3, 2))}, "two instants"),
-    "x short": ({"u_x": [0, 1e-6]}, "u_x must have the shape"),
-    "x NaN": ({"u_x": [0, np.nan, 0]}, "finite"),
-    "x words": ({"u_x": ["a", "b", "c"]}, "real numbers"),
-    "y long": ({"u_y": [0, 0, 0, 0]}, "u_y must have the shape"),
-    "z infinite": ({"u_z": [0, np.inf, 0]}, "finite"),
-    "never touches": ({"u_z": -1e-6}, "never touches"),
-    "both": ({"F_z": 1.0}, "not both"),
-    "neither": ({"u_z": None}, "not both"),
-    "F_z pulls": ({"u_z": None, "F_z": [0.01, -0.01, 0.01]}, "F_z must not be negative"),
-    "F_z is nothing": ({"u_z": None, "F_z": 0.0}, "never touches"),
-    "too deep": ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-4), "u_z": 1e-6}, "deeper"),
-    "flows": ({"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5)}, "E_inf = 0"),
-    "flows under a load": (
-        {"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5), "u_z": None, "F_z": 1.0},
-        "E_inf = 0",
-    ),
-    "few springs": ({"n_springs": 16}, "n_springs"),
-    "mu_0": ({"mu_0": -0.1}, "mu_0"),
-    "no shape": ({"indenter": None}, "indenter"),
-    "no material": ({"material": 3e6}, "material"),
-}
-
-
-@pytest.mark.parametrize(("change", "words"), HOSTILE.values(), ids=HOSTILE.keys())
-def test_hostile_records_are_refused(change, words):
-    given = {"indenter": BALL, "material": ELASTIC, "mu_0": MU_0, "t": [0, 1, 2], "u_x": [0, 1e-6, 0], "u_z": 1e-6}
-    with pytest.raises((ValueError, TypeError), match=words):
-        mdr.slide_record(**{**given, **change})
-
-
 # --- files ---
 
 
@@ -299,16 +263,6 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
         ("t [s], a_x [g], u_x [um], u_z [um]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_x and u_x: leave one out"),
         ("t [s], u_x [um], a_z [g], F_z [N]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_z and F_z: leave one out"),
         ("t [s], a_z [g]\n" + "".join(f"{k}, 1\n" for k in range(9)), "names no u_x"),
-    ],
-)
-def test_hostile_accelerations_are_refused(tmp_path, capsys, text, words):
-    assert main([*written(tmp_path, text), "--high-pass", "0.3Hz"]) == 2
-    assert words in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
         ("t [s], u_x [um]\n0, 1\n1, 2\n", "either u_z"),
         ("t [s], u_x, u_z [um]\n0, 1, 1\n", "u_x needs a unit"),
         ("t [s], u_z [um]\n0, 1\n", "names no u_x"),
@@ -318,7 +272,8 @@ def test_hostile_accelerations_are_refused(tmp_path, capsys, text, words):
     ],
 )
 def test_hostile_files_are_refused(tmp_path, capsys, text, words):
-    assert main(written(tmp_path, text)) == 2
+    high_pass = ["--high-pass", "0.3Hz"] if "a_" in text else []
+    assert main([*written(tmp_path, text), *high_pass]) == 2
     assert words in capsys.readouterr().err
 
 

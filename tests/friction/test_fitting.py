@@ -3,15 +3,11 @@
 import re
 from dataclasses import replace
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 
 import mdr
 from mdr.friction.free_parameters import Parameter
-
-mpl.use("Agg")
-import matplotlib.pyplot as plt
 
 TAU, MU_0 = 1e-3, 0.5
 CASE = mdr.SlidingContact(
@@ -91,10 +87,6 @@ def test_a_parameter_may_begin_at_zero_where_it_may_be_zero():
     free, within = (mdr.fit(undamped, measured(0.01), ["tau"], bounds=b) for b in (None, {"tau": (0.0, 1.0)}))
     assert free.low["tau"] < TAU < free.high["tau"]
     assert within.values["tau"] == pytest.approx(free.values["tau"], rel=1e-4)
-    with pytest.raises(ValueError, match=r"cannot be varied: omega_0/omega: RigidPull has no k_x"):
-        mdr.fit(replace(BODY, pull=mdr.RigidPull()), measured(0.01), ["omega_0/omega"])
-    with pytest.raises(ValueError, match="T cannot be varied: T: Elastic has no tau"):
-        mdr.fit(replace(CASE, material=mdr.Elastic(3e6, 0.4)), measured(0.01), ["T"])
 
 
 def test_linear_and_logarithmic_scales_find_the_same():
@@ -141,7 +133,6 @@ def test_a_phase_is_fitted_to_both_ways_from_zero():
     assert least < -2.5e-3 < 2.5e-3 < most
     ax = found.plot()
     assert len(ax.figure.axes) == 2
-    plt.close(ax.figure)
 
 
 def test_signs_that_no_unshaken_contact_shows_are_refused():
@@ -187,4 +178,3 @@ def test_a_fit_prints_and_draws():
     below = ax.figure.axes[1]
     assert below.get_ylabel() == "measured\nless fitted"
     assert {text.get_text() for text in ax.get_legend().get_texts()} == {"measured", "fitted contact"}
-    plt.close(ax.figure)

@@ -36,8 +36,7 @@ def test_what_a_curve_writes_is_read(tmp_path):
     curve.to_csv(tmp_path / "curve.csv")
     data = mdr.read_friction_data(tmp_path / "curve.csv")
     assert_allclose(data.cof, curve.cof, rtol=1e-15)
-
-
-def test_columns_are_of_one_length():
-    with pytest.raises(ValueError, match="cof must be a list of as many numbers as v_0"):
-        mdr.FrictionData([1.0, 2.0], [0.3])
+    head, *rows = (tmp_path / "curve.csv").read_text(encoding="utf-8").splitlines()
+    assert head == "v_0 [m/s],cof [-],cof_error [-],settled,stick_share [-]"
+    columns = [curve.v_0, curve.cof, curve.cof_error, curve.settled, curve.stick_share]
+    assert np.array_equal([[float(cell) for cell in row.split(",")] for row in rows], np.transpose(columns))

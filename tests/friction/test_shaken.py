@@ -297,20 +297,6 @@ def test_a_band_that_is_one_number_contains_it():
     assert mdr.holding_band(contact(chi=3.0)).contains(0.0)
 
 
-def test_laws_without_a_shake_refuse_one():
-    case = contact(alpha=0.4, chi=0.3)
-    for ask in (
-        mdr.laws.coupling_loss,
-        mdr.laws.coupled_critical_velocity,
-        lambda one: mdr.laws.first_order(body(one)),
-    ):
-        with pytest.raises(ValueError, match="shake in the plane"):
-            ask(replace(case, material=mdr.Elastic(3e6, 0.45)))
-    for wrong in (contact(chi=3.0), contact(chi=0.1, material=mdr.KelvinVoigt(3e6, 0.5, 1e-3))):
-        with pytest.raises(ValueError, match="this law is that of an"):
-            mdr.laws.lost_under_shake(wrong, 1e-4)
-
-
 def test_a_shake_of_no_amplitude_is_pulled_both_ways_too():
     case = contact(alpha=0.4, chi=0.0)
     for one in (case, body(case)):
@@ -322,17 +308,6 @@ def test_a_shake_of_no_amplitude_is_pulled_both_ways_too():
 
 def curve_at(case, v_0):
     return float(mdr.cof_curve(case, [v_0]).cof[0])
-
-
-def test_a_shake_that_hides_the_springs_is_refused():
-    with pytest.raises(ValueError, match="the shake is more than"):
-        mdr.slide(contact(chi=1e12), 1.0)
-
-
-def test_a_velocity_without_load_on_a_resonance_is_refused_in_words():
-    case = contact(alpha=0.5, at="pull", pull=mdr.SpringPull(k_x=2e4, m=2e4 / OMEGA**2))
-    with pytest.raises(ValueError, match="undamped natural frequency"):
-        mdr.no_load_velocity(case)
 
 
 def test_contact_lost_on_an_elastic_face_is_exact():

@@ -9,7 +9,6 @@ import sys
 from inspect import isfunction
 
 import gallery_page
-import matplotlib as mpl
 import matplotlib.pyplot as plt
 import pages
 import pytest
@@ -23,7 +22,6 @@ SAME = 12.0  #: root mean square over the pixels, of 255: letters of another fon
 
 @pytest.mark.parametrize("page", pages.PAGES, ids=lambda page: page.name)
 def test_a_page_does_what_it_says(page, tmp_path, monkeypatch):
-    mpl.use("Agg")
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(ROOT)
     monkeypatch.setattr("mdr.files.own_records._OWN", {})  # what a page registers is its own

@@ -4,7 +4,6 @@ import re
 import runpy
 import shlex
 
-import matplotlib as mpl
 import numpy as np
 import pages
 import pytest
@@ -23,7 +22,6 @@ def prose(page):
 
 @pytest.fixture(scope="module")
 def drawn():
-    mpl.use("Agg")
     names = runpy.run_path(str(pages.DOCS / "picture.py"))
     run = names["shown"]()
     return names["figure"](run), lambda path: names["animate"](path, run)

@@ -8,6 +8,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -55,11 +57,6 @@ def test_every_shape_has_its_script():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_figure_is_a_figure_and_leaves_no_style_behind(name):
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    import matplotlib.pyplot as plt
-
     size = mpl.rcParams["font.size"]
     fig = script(name).figure()
     fig.set_layout_engine("none")  # which measures all texts once more

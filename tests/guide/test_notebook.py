@@ -9,15 +9,12 @@ from base64 import b64decode
 from contextlib import redirect_stdout
 from pathlib import Path
 
-import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pages
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
-
-mpl.use("Agg")
-import matplotlib.pyplot as plt
 
 FILE = pages.DOCS / "springs.ipynb"
 NOTEBOOK = json.loads(FILE.read_text(encoding="utf-8"))

@@ -145,21 +145,6 @@ def test_a_concave_punch_that_touches_with_a_ring(share):
     assert shape.contact_radius(-0.51 * shape.least_depth) == 0
 
 
-@pytest.mark.parametrize(("ask", "words"), [
-    (lambda: mdr.Sphere(R).profile_1d(R), "Sphere is touched within its equator only, x < 0.005 m.*infinite"),
-    (lambda: mdr.Sphere(R).profile_3d([0, 1.1 * R]), "Sphere ends at its equator r = 0.005 m, got 0.0055 m"),
-    (lambda: mdr.Sphere(R).force(1.0, 1), "d = 1 m is deeper than Sphere can be pressed.*equator"),
-    (lambda: mdr.Ellipsoid(R, 100).profile_area(0.02), "Ellipsoid is touched within its equator only, x < 0.01 m"),
-    (lambda: mdr.Ellipsoid(R, 100).contact_radius(1.0), "Ellipsoid can be pressed.*equator, 0.01 m"),
-    (lambda: mdr.ConstantPressure(1e-3, 1e-5).stiffness(2e-5, 1), "d_0 = 1e-05 m its whole face touches.*press less"),
-    (lambda: mdr.ConstantPressure(1e-3, 1e-5).profile_3d(2e-3), "ConstantPressure ends at r = 0.001 m, got 0.002 m"),
-    (lambda: mdr.ConcavePunch(1e-3, 1).profile_1d(2e-3), "ConcavePunch ends at r = 0.001 m, got 0.002 m"),
-])  # fmt: skip
-def test_limits_are_told_by_their_physical_name(ask, words):
-    with pytest.raises(ValueError, match=words):
-        ask()
-
-
 def test_the_equator_is_the_end_of_a_sphere():
     assert mdr.Sphere(R).profile_3d(R) == R
     assert mdr.Ellipsoid(R, 100).profile_3d(-0.01) == pytest.approx(R, rel=1e-15)

@@ -65,23 +65,8 @@ def test_a_noisy_force_is_smoothed():
     assert worst(shape.contact_radius(some), mdr.Sphere(R).contact_radius(some)) < 0.01  # a few tenths of a percent
 
 
-@pytest.mark.parametrize(("d", "F", "how", "words"), [
-    (GRID, GRID**0.9, {}, "F must rise more and more steeply.*falls at d = 1e-05 m"),
-    (GRID, np.minimum(GRID, 1e-3 + (GRID - 1e-3) / 2), {}, "F must rise more and more steeply"),
-    (GRID, GRID * 0, {"smoothing": 1.0}, "F must be positive for d > 0"),
-    (GRID + 1e-9, GRID, {}, "d and F must begin with 0, got 1e-09 m and 0 N"),
-    (GRID[:6], GRID[:6], {}, "at least 7 numbers"),
-])  # fmt: skip
-def test_curves_that_no_shape_has(d, F, how, words):
-    with pytest.raises(ValueError, match=words):
-        mdr.FromForce(d, F, **{"E_star": E_STAR, **how})
-
-
 def test_deeper_than_it_was_measured():
     with pytest.raises(ValueError, match=r"d = 0.0001 m is deeper than the force is known, d = 3.9e-05 m"):
         BALL.stiffness([1e-6, 1e-4], 1)
     assert np.array_equal(BALL.force([-1, 0], 1), [0, 0])
     assert BALL.contact_radius(1e-300) > 0
-
-
-# --- both ---

@@ -131,21 +131,6 @@ def test_a_kink_that_makes_the_spline_fall_is_found(shape):
     assert mdr.SampledProfile(GRID, f, kinks=(B,)).kinks == (B,)
 
 
-@pytest.mark.parametrize(("r", "f", "how", "error", "words"), [
-    (GRID[1:], GRID[1:], {}, ValueError, "r must begin at 0, the tip from which the depth counts, got 1e-05 m"),
-    (GRID - 1e-3, GRID, {}, ValueError, "got -0.001 m: give one side of a mirrored profile"),
-    (GRID[::-1], GRID, {}, ValueError, "sort the points by r"),
-    (np.repeat(GRID, 2), np.repeat(GRID, 2), {}, ValueError, "r must ascend, got 0 and then 0 .*take the mean"),
-    (GRID, GRID**2, {"kinks": [1.001e-3]}, ValueError, "among the r.*got 0.001001 m: the nearest is 0.001 m"),
-    (GRID, -(GRID**2), {}, ValueError, "annular contact"),
-    (GRID, 0 * GRID, {"smoothing": 1e-7}, ValueError, r"f is 0 m at every r, a flat face: use FlatPunch\(a=0.002\)"),
-    (GRID, 0 * GRID + 1e-3, {}, ValueError, "f is 0.001 m at every r, a flat face"),
-])  # fmt: skip
-def test_points_that_are_no_profile(r, f, how, error, words):
-    with pytest.raises(error, match=words):
-        mdr.SampledProfile(r, f, **how)
-
-
 def test_what_lies_beyond_the_points_is_unknown():
     shape = sampled(mdr.Sphere(R))
     deepest = float(shape.profile_1d(2e-3))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
+from random_records import case_in_units
 
 import mdr
 from mdr.march import loop
@@ -25,9 +26,20 @@ BODIES = {
 }
 
 
-def scaled_of(*groups, steps=STEPS, n_springs=32, lump=False, **knobs):
-    case = contact(*groups, **knobs)
+def shaken(case, chi):
+    """chi: du_x over the deflection at which the deepest spring slips; None without a shake."""
+    if chi is None:
+        return case
+    du_x = chi * case.mu_0 * case.material.mindlin_ratio * case.oscillation.u_z0
+    return replace(case, shake=mdr.InPlaneOscillation(case.omega, du_x, 0.7, at="pull"))
+
+
+def scaled_form(case, steps=STEPS, n_springs=32, lump=False):
     return ScaledContact.of(case, mdr.SpringArray.of(case, n_springs), steps, lump)
+
+
+def scaled_of(*groups, steps=STEPS, n_springs=32, lump=False, **knobs):
+    return scaled_form(contact(*groups, **knobs), steps, n_springs, lump)
 
 
 # --- what the groups are ---
@@ -70,18 +82,23 @@ def test_body_groups_are_those_of_the_oscillator():
     assert_allclose(math.sqrt(scaled.body.K / scaled.body.M), 1.6, rtol=1e-13)
 
 
+@pytest.mark.parametrize("chi", [None, 1.2])
+@pytest.mark.parametrize("body", [{}, BODIES["damped"], {"k_ratio": 0.7, "omega_0_ratio": math.inf}])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_friction_and_moduli_drop_out(shape):
-    groups = shape, 3.0, 0.5, 0.7, 1.6, 0.15
-    one = scaled_of(*groups)
-    for change in ({"mu_0": 0.01}, {"E": 3e11}, {"nu": 0.1}, {"omega": 1e6}):
-        other = scaled_of(*groups, **change)
-        groups_of = attrgetter(
-            "springs.gap", "springs.w", "drive.z", "drive.z_dot", "law.T", "body.M", "body.C", "body.K"
-        )
-        for here, there in zip(groups_of(other), groups_of(one), strict=True):
-            assert_allclose(here, there, rtol=1e-11)
-        assert_allclose(other.body.free, one.body.free, rtol=1e-11)
+def test_friction_moduli_and_units_drop_out(shape, body, chi):
+    """A run sees no more than these numbers: so it is the same of a nanometre tip and of a railway wheel."""
+    case = shaken(contact(shape, 3.0, 0.5, **body), chi)
+    changes = ({"mu_0": 0.01}, {"E": 3e11}, {"nu": 0.1}, {"omega": 1e6})
+    others = [shaken(contact(shape, 3.0, 0.5, **body, **change), chi) for change in changes]
+    others += [case_in_units(case, *units) for units in ((1e-6, 1e-3, 1e-9), (6.0, 5.0, 7e6), (1e3, 1.0, 1e3))]
+    way = () if chi is None else ("drive.along.x", "drive.along.x_dot")
+    groups_of = attrgetter(
+        "springs.gap", "springs.w", "drive.z", "drive.z_dot", "law.T", "body.M", "body.C", "body.K", "body.free", *way
+    )
+    one = groups_of(scaled_form(case))
+    for other in others:
+        for here, there in zip(groups_of(scaled_form(other)), one, strict=True):
+            assert_allclose(here, there, rtol=1e-11, atol=1e-13)  # a way through zero
 
 
 def test_springs_that_stand_alike_are_one():

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import reference_shaken
 from conftest import SHAPES
 from numpy.testing import assert_allclose
+from tables import turning
 
 import mdr
 from mdr.march.dimensionless import ScaledContact
@@ -17,6 +17,7 @@ OMEGA, MU_0, NU, DEPTH = 300.0, 0.4, 0.4, 20e-6
 KAPPA = (2 - NU) / (2 * (1 - NU))
 REACH = MU_0 * KAPPA * DEPTH  # deflection at which the deepest spring slips
 KNOBS = {"n_springs": 64, "steps_per_period": 256}
+QUICK = {"steps": 4096}  # of the twin
 
 
 def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, at="tool", **others):
@@ -34,20 +35,6 @@ def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, a
     return replace(mdr.SlidingContact(indenter, material, MU_0, motion, pull, shake), **others)
 
 
-def by_twin(case, v_0, shape, steps, count, n_periods):
-    """COF of the twin, and how far it may be off."""
-    side, unit = math.copysign(1, v_0), case.cycle.unit
-    length, depth = MU_0 * KAPPA * unit, DEPTH / unit
-    k_xc = float(case.indenter.stiffness(DEPTH, case.material.G_star))
-    m, c_x, k_x = case.pull.coefficients
-    body = None if case.pull.is_rigid else (m * OMEGA**2 / k_xc, c_x * OMEGA / k_xc, k_x / k_xc)
-    z_n = [1.0] if case.oscillation.omega else [0.0]
-    knobs = {"steps": steps, "count": count, "n_periods": n_periods}
-    x_n, v = [side * x / length for x in case.way], abs(v_0) / (length * OMEGA)
-    cof, error = reference_shaken.friction(SHAPES[shape][1], depth, z_n, x_n, case.T, v, body, **knobs)
-    return side * MU_0 * cof, MU_0 * error
-
-
 @pytest.mark.parametrize(
     ("shape", "alpha", "T", "chi", "phi", "v"),
     [
@@ -62,13 +49,11 @@ def by_twin(case, v_0, shape, steps, count, n_periods):
 )
 def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi, v):
     case = contact(shape, alpha, T, chi, phi)
-    v_0 = v * max(mdr.critical_velocity(case, way) for way in (1, -1))
-    run = mdr.slide(case, v_0)
-    expected, doubt = by_twin(case, v_0, shape, 4096, 500, 12 if T else 3)
-    assert run.settled
-    assert run.cof_error <= 1e-5 * MU_0
-    assert doubt < 2e-5 * MU_0
-    assert abs(run.cof - expected) <= run.cof_error + doubt + 1e-6 * MU_0  # the springs of the twin
+    row = turning.row_of("", shape, case, v * max(mdr.critical_velocity(case, way) for way in (1, -1)), **QUICK)
+    assert row.settled
+    assert row.bound <= 1e-5
+    assert row.doubt < 1e-5
+    assert row.error <= row.bound
 
 
 @pytest.mark.parametrize(
@@ -77,12 +62,10 @@ def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi,
 )
 def test_a_body_is_within_its_error_of_the_twin(shape, alpha, T, chi, at):
     case = contact(shape, alpha, T, chi, body=(1.0, 0.7, 0.4), at=at)
-    v_0 = -0.4 * mdr.critical_velocity(case, -1)
-    run = mdr.slide(case, v_0)
-    expected, doubt = by_twin(case, v_0, shape, 4096, 120, 30)
-    assert run.settled
-    assert doubt < 2e-4 * MU_0
-    assert abs(run.cof - expected) <= run.cof_error + doubt + 1e-5 * MU_0  # the springs of the twin
+    row = turning.row_of("", shape, case, -0.4 * mdr.critical_velocity(case, -1), **QUICK)
+    assert row.settled
+    assert row.doubt < 1e-5
+    assert row.error <= row.bound
 
 
 # --- limits ---
@@ -124,33 +107,6 @@ def test_the_other_way_is_the_mirror_image():
     for mode in mdr.State:
         assert np.array_equal(one.state == mode, other.state == swapped.get(mode, mode))
     assert one.energy_balance == other.energy_balance
-
-
-@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)])
-def test_units_and_mu_0_and_moduli_drop_out(body):
-    one = contact(alpha=0.4, T=0.3, chi=1.2, body=body)
-    material = mdr.KelvinVoigt(E=7e9, nu=0.2, tau=0.3 / 5e4)
-    ratio = material.mindlin_ratio * 0.7 / (KAPPA * MU_0)
-    two = replace(
-        one,
-        mu_0=0.7,
-        material=material,
-        oscillation=replace(one.oscillation, omega=5e4),
-        shake=replace(one.shake, omega=5e4, du_x=one.shake.du_x * ratio),
-    )
-    if body is not None:
-        scale = material.G_star / one.material.G_star
-        m, c_x, k_x = one.pull.coefficients
-        slower = OMEGA / 5e4
-        two = replace(two, pull=mdr.SpringPull(k_x * scale, m * scale * slower**2, c_x * scale * slower))
-    for v in (0.3, -0.6):
-        v_0 = v * mdr.critical_velocity(one, -1)
-        first, second = mdr.slide(one, v_0, **KNOBS), mdr.slide(two, v_0 * ratio / slower_of(one, two), **KNOBS)
-        assert second.cof / 0.7 == pytest.approx(first.cof / MU_0, rel=1e-7)
-
-
-def slower_of(one, two):
-    return one.omega / two.omega
 
 
 def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
@@ -205,13 +161,6 @@ def test_energy_has_three_drives(T, body, at):
     # the path of a body within a step is taken for a cubic, which misses h^4 = 9e-5 times a thousandth
     assert abs(account.relative) < (1e-9 if body is None else 1e-7)
     assert account.shake_work > 0.1 * account.friction_loss
-
-
-def test_at_rest_the_start_decides_where_a_contact_can_hold():
-    case = contact("flat", chi=0.5)
-    forward, rest = (mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest"))
-    assert abs(forward.cof - 0.5 * MU_0) <= forward.cof_error
-    assert abs(rest.cof) < 0.5 * MU_0 - 1e-6
 
 
 def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():

@@ -64,7 +64,6 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
         assert (
             np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()
         )  # the rounding of places
-    plt.close("all")
 
 
 def test_the_ground_takes_along_feet_that_stick_and_is_back_after_a_period(run):
@@ -86,7 +85,6 @@ def test_the_ground_takes_along_feet_that_stick_and_is_back_after_a_period(run):
     assert np.max(np.abs(off - np.round(off))[sticks]) < 1e-9
     turns = run.v_0 * 2 * np.pi / run.omega * picture.view.lean / picture.apart
     assert abs(turns - round(turns)) < 1e-9 < turns
-    plt.close("all")
 
 
 def test_a_shape_goes_on_beyond_its_contact_and_a_punch_ends(run):

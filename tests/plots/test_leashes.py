@@ -31,4 +31,3 @@ def test_leashes_are_taut_where_feet_slip_and_stuck_feet_stand_still(tmp_path):
     assert not Leashes(ax, mdr.slide(kelvin, 1e-3, **size)).reach.any()  # forces of rubber tell no stretch
     with Image.open(animate_springs(run, tmp_path / "above.gif", frames=3)) as gif:
         assert gif.n_frames == 3
-    plt.close("all")

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -11,16 +12,7 @@ import mdr
 from mdr import plots
 from mdr.plots.figures import PIECES, smooth
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
 FREE, STICK, SLIP, SLIP_BACK = range(4)
-
-
-@pytest.fixture(autouse=True)
-def close_figures():
-    yield
-    plt.close("all")
 
 
 def made_up_curve(v_c=0.04, static=0.3, **changes):
@@ -298,7 +290,6 @@ def test_a_figure_is_saved_beside_its_script(tmp_path):
     script = tmp_path / "some_shape.py"
     figure = plt.figure()
     path = mdr.plots.save(figure, str(script), "_more")
-    plt.close(figure)
     assert path == tmp_path / "figures" / "some_shape_more.png"
     assert path.stat().st_size > 0
 

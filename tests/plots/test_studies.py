@@ -11,9 +11,6 @@ import mdr
 from mdr.plots import studies
 from mdr.tools.status import Status
 
-mpl.use("Agg")
-import matplotlib.pyplot as plt
-
 CASE = mdr.SlidingContact(
     mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.5, mdr.NormalOscillation(20e-6, 5e-6, 300.0)
 )
@@ -34,12 +31,6 @@ def flat(study):
 @pytest.fixture(scope="module")
 def shapes():
     return mdr.sweep(CASE, {"indenter": SHAPES, "v_0/v_c": V})
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def broken(study, where, status):
@@ -155,23 +146,6 @@ def test_the_picture_of_a_map_has_contours_round_or_chosen(study, flat):
     assert_allclose(contours(flat.plot("cof", levels=[0.4, 0.35]))[0].levels, [0.35, 0.4])
     assert contours(flat.plot("cof", levels=[])) == []
     assert len(contours(study.plot())) == 2
-
-
-@pytest.mark.parametrize(
-    ("draw", "words"),
-    [
-        (lambda study, flat, shapes: study.plot_map("cof"), "the study has 3"),
-        (lambda study, flat, shapes: flat.plot_map("cof", x="T"), "no axis of the study"),
-        (lambda study, flat, shapes: flat.plot_map("v_c"), "no quantity"),
-        (lambda study, flat, shapes: shapes.plot_map("cof"), "two axes of numbers"),
-        (lambda study, flat, shapes: shapes.select({"v_0/v_c": 0.2}).plot(), "no axis of numbers"),
-        (lambda study, flat, shapes: study.plot_multiples("cof", over="T", columns=0), "columns must be at least 1"),
-        (lambda study, flat, shapes: flat.plot_multiples("cof", over="alpha", levels=[0.3]), "levels is for maps"),
-    ],
-)
-def test_what_cannot_be_drawn_says_so(study, flat, shapes, draw, words):
-    with pytest.raises((ValueError, KeyError, TypeError), match=words):
-        draw(study, flat, shapes)
 
 
 def test_small_multiples_name_what_failed_once_beside_the_titles(study):

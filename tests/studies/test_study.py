@@ -66,24 +66,6 @@ def test_a_part_is_selected_by_its_values(study):
     assert str(point).startswith("Study of 1 points (1)")
 
 
-@pytest.mark.parametrize(
-    ("call", "kind", "words"),
-    [
-        (lambda study: study["coff"], KeyError, r"the study has no quantity 'coff'; did you mean cof?"),
-        (lambda study: study["zzz"], KeyError, "there are cof, v_c"),
-        (lambda study: study[0], KeyError, "there are cof, v_c"),
-        (lambda study: study.select({"v_0": 0.5}), KeyError, "'v_0' is no axis of the study; there are v_0/v_c, ind"),
-        (lambda study: study.select({"v_0/v_c": 0.49}), ValueError, "v_0/v_c has no value 0.49; the nearest is 0.5"),
-        (lambda study: study.select({"v_0/v_c": None}), ValueError, "v_0/v_c has numbers for values, got None"),
-        (lambda study: study.select({"indenter": mdr.Cone(theta=0.06)}), ValueError, "no value Cone"),
-        (lambda study: study.select("v_0/v_c"), TypeError, "values must map paths to values"),
-    ],
-)  # fmt: skip
-def test_what_is_not_there_cannot_be_had(study, call, kind, words):
-    with pytest.raises(kind, match=words):
-        call(study)
-
-
 def test_print_tells_axes_quantities_and_what_went_wrong(study):
     assert repr(study) == str(study)
     assert str(study).splitlines() == [

@@ -1,12 +1,13 @@
-"""True error of slide() where friction turns: `python tests/tables turning [n] [bodies]`.
+"""True error of slide() under a shake: `python tests/tables turning [n] [bodies] [along]`.
 
 n random rigid pulls (120) of four shapes, elastic, Kelvin and with two arms, alone and with a normal oscillation,
-contact kept and lost. The indenter is moved across the pull, obliquely or along a figure-eight; along and across the
-pull the worse error counts, against the twin of reference_turning.py. `bodies`: n random bodies (40), guided or on a
-spring across the pull, tool or pulling point shaken.
+contact kept and lost. The indenter is moved across the pull, obliquely or along a figure-eight, or, if `along`, along
+it and pulled either way. Along and across the pull the worse error counts, against the twin of reference_turning.py.
+`bodies`: n random bodies (40), guided or on a spring across the pull, tool or pulling point shaken.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,22 +26,25 @@ MATERIALS = {
     "two arms": mdr.Prony(3e6, ((3e6, 0.3 / OMEGA), (1.5e6, 2 / OMEGA)), NU),
 }
 REACH = MU_0 * MATERIALS["elastic"].mindlin_ratio * DEPTH  # deflection at which the deepest spring slips
-MOTIONS = ("transverse", "oblique", "figure-eight")
+System = tuple[str, str, mdr.SlidingContact, float]  #: what it is, its shape, and how it is pulled
+MOTIONS, ALONG = ("transverse", "oblique", "figure-eight"), ("backward", "forward", "forward")
 
 
-def drawn(n: int, bodies: bool = False) -> list[tuple[str, str, mdr.SlidingContact, float]]:
+def drawn(
+    n: int, bodies: bool = False, motions: Sequence[str] = MOTIONS
+) -> list[tuple[str, str, mdr.SlidingContact, float]]:
     """Random contacts and velocities."""
     rng, out = np.random.default_rng(3000 + bodies), []
     for i in range(n):
         shape, rheology = tuple(SHAPES)[i % 4], tuple(MATERIALS)[int(rng.integers(4))]
         alpha = (0.0, rng.uniform(0.05, 0.7), rng.uniform(1.05, 1.8))[int(rng.integers(3))]
         motion = mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA) if alpha else mdr.ConstantDepth(DEPTH)
-        kind = MOTIONS[int(rng.integers(3))]
+        kind = motions[int(rng.integers(3))]
         case = mdr.SlidingContact(SHAPES[shape][0], MATERIALS[rheology], MU_0, motion, shake=shake(kind, rng))
         if bodies:
             case = on_a_body(case, rng)
         size = float(np.sqrt(sum(np.sum(np.abs(way) ** 2) for way in (case.way, case.way_across)))) / REACH
-        v = rng.uniform(0.02, 1.5)
+        v = rng.uniform(0.02, 1.5) * (-1 if kind == "backward" else 1)
         guided = "" if case.pull.is_rigid else ", guided" if math.isinf(case.pull.across[2]) else ", hung"
         name = f"{shape}, {rheology}, alpha = {alpha:.3g}, {kind} at {case.shake.at}, size {size:.3g}, v = {v:.3g}"
         out.append((name + guided, shape, case, v * fastest(case)))
@@ -52,6 +56,8 @@ def shake(kind: str, rng: np.random.Generator) -> mdr.InPlaneOscillation | mdr.I
     size, slope, phases = 0.3 * 33 ** rng.uniform() * REACH, rng.uniform(0.2, 1.4), rng.uniform(0, 2 * np.pi, 2)
     if kind == "figure-eight":
         return mdr.InPlaneMotion(OMEGA, x_cos=(size * math.cos(slope),), y_sin=(0.0, size * math.sin(slope)))
+    if kind in ALONG:
+        return mdr.InPlaneOscillation(OMEGA, size, phases[0])
     if kind == "transverse":
         return mdr.InPlaneOscillation(OMEGA, du_y=size, phi_y=phases[1])
     return mdr.InPlaneOscillation(OMEGA, size * math.cos(slope), phases[0], size * math.sin(slope), phases[1])
@@ -92,15 +98,16 @@ def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) ->
     )
 
 
-def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float) -> Row:
+def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:
     """The run beside the twin, along or across the pull, where they differ more."""
-    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0)
+    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs)
     bound, ends = run.cof_error / MU_0, ((run.cof, known.along, ""), (run.cof_y, known.across, ", across"))
     rows = [Row(name + end, cof / MU_0, bound, truth, known.doubt, run.settled) for cof, truth, end in ends]
     return max(rows, key=lambda one: one.distance)
 
 
-def main(n: int = 0, bodies: str = "") -> int:
+def main(n: int = 0, *words: str) -> int:
     """Print the table; 0 if all errors are within their bound."""
-    n = n or (40 if bodies else 120)
-    return told([row_of(*one) for one in progress(drawn(n, bool(bodies)), "turning")], 1.0)
+    bodies, motions = "bodies" in words, ALONG if "along" in words else MOTIONS
+    systems = drawn(n or (40 if bodies else 120), bodies, motions)
+    return told([row_of(*one) for one in progress(systems, "turning")], 1.0)

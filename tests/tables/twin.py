@@ -6,9 +6,9 @@ counts by what exceeds the doubt.
 
 import itertools
 
-import numpy as np
 import reference
 from conftest import SHAPES, contact, unit_of_velocity
+from tables import turning
 from tables.beside import row
 
 import mdr
@@ -45,12 +45,9 @@ def spring_pull(
     shapes=tuple(SHAPES), alphas=(0.3, 1.2), Ts=(0.0, *TS), bodies=BODIES, shares=(0.2, 0.5, 0.8, 0.97), **knobs
 ):
     """Mass and damper; shares are of v_c, knobs are those of the twin."""
-    for shape, alpha, T, body in itertools.product(shapes, alphas, Ts, bodies):
-        n = SHAPES[shape][1]
+    for shape, alpha, T, body, share in itertools.product(shapes, alphas, Ts, bodies, shares):
         k, omega_0, zeta = body
-        c = reference.damping_for(zeta, k, omega_0)
-        v_hats = reference.full_slip_critical_velocity(n, 1 / alpha, T, k, omega_0, c) * np.array(shares)
-        truths, doubts = reference.spring_pull_cof(n, 1 / alpha, v_hats, T, k, omega_0, c, **knobs)
-        case = contact(shape, 1 / alpha, T, k, omega_0, c)
-        for share, v_hat, truth, doubt in zip(shares, v_hats, truths, doubts, strict=True):
-            yield compare((shape, alpha, T, body, share), truth, doubt, case, v_hat)
+        case = contact(shape, 1 / alpha, T, k, omega_0, reference.damping_for(zeta, k, omega_0))
+        v_0 = share * mdr.full_slip_critical_velocity(case)
+        known = turning.by_twin(shape, case, v_0, **knobs)
+        yield compare((shape, alpha, T, body, share), known.along, known.doubt, case, v_0 / unit_of_velocity(case))

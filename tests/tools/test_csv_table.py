@@ -14,9 +14,6 @@ from mdr.tools.csv_table import Tabled, cells_of, csv_text
 )
 def test_a_line_is_its_cells(line, cells):
     assert cells_of(line, "here") == cells
-
-
-def test_a_line_may_be_cut_elsewhere():
     assert cells_of("1,5;2", "here", ";") == ["1,5", "2"]
 
 

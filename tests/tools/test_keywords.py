@@ -8,22 +8,6 @@ import mdr
 from mdr.tools.keywords import offering
 
 
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: mdr.slide(None, v=1), "slide takes no v; did you mean v_0?"),
-        (lambda: mdr.rig(None, None, 0.3, frequency=5, amplitude=1e-6),
-         "rig takes no amplitude; did you mean load_amplitude or depth_amplitude?"),
-        (lambda: mdr.cof_curve(None, 1, springs=40), "cof_curve takes no springs; did you mean n_springs?"),
-        (lambda: mdr.sweep(None, {}, quantity=["cof"]), "sweep takes no quantity; did you mean quantities?"),
-    ],
-)  # fmt: skip
-def test_the_nearest_is_offered(call, words):
-    with pytest.raises(TypeError) as refused:
-        call()
-    assert str(refused.value) == words
-
-
 def test_a_function_stays_what_it_was():
     assert offering(pow)(2, 3) == 8
     assert mdr.slide.__name__ == "slide"

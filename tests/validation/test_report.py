@@ -10,7 +10,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
 import pytest
 
 import validation
@@ -18,9 +18,6 @@ import validation.__main__ as command
 from validation.page import html_page, write_report
 from validation.page.answer import answers
 from validation.report import Check, Claim, Equation, Figure, Part, text_table
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).parents[2]
 

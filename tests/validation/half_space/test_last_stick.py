@@ -38,6 +38,10 @@ def test_the_command(tmp_path, capsys):
     assert 0 < told["cof"] < 0.3
     assert all(0 <= error < 0.01 for error in told["errors"].values())
     assert_allclose(told["cof"], told["mean_F_x"] / told["mean_F_z"], rtol=1e-12)
+    assert main(few[:-1]) == 0
+    shown = dict(line.split()[:2] for line in capsys.readouterr().out.splitlines() if line[:3] in ("cof", "mea"))
+    assert_allclose([float(shown[name]) for name in ("cof", "mean_F_z")], [told["cof"], told["mean_F_z"]], rtol=1e-4)
+    assert "cof_y" in shown
     file.write_text(mdr.write_case(replace(BALL, pull=mdr.SpringPull(k_x=1e4))))
     assert main(few) == 2
     assert "takes a rigid pull" in capsys.readouterr().err
