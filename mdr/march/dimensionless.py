@@ -207,7 +207,8 @@ class ScaledContact:
         """Room for what a march leaves of its steps."""
         n_steps = n_periods * self.drive.steps
         kind = float if self.ways == 1 else complex
-        return loop.Trace(*np.empty((4, n_steps), kind), np.empty((n_steps, 2, 3), kind))
+        area, moment, y, rate = np.empty((4, n_steps), kind)
+        return loop.Trace(area, moment, y, rate, np.empty((n_steps, 2, 3), kind))
 
 
 def _settled(row: loop.Springs, drive: Drive, law: Law) -> NormalPeriod:

@@ -7,9 +7,10 @@ form and the velocity of the pull, and counts the periods that it marched.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.march import loop, orbit_loop
 from mdr.march.body import N_BODY, RATE, Body, Y
@@ -39,13 +40,13 @@ class MarchState:
 
     def __init__(self, x: Array, s: Array) -> None:
         self.x = x  #: (n_x,) extensions, then the body; real parts and imaginary ones in turn
-        vector = x if x.size == s.size + N_BODY else x.view(complex)
+        vector: NDArray[Any] = x if x.size == s.size + N_BODY else x.view(complex)
         self.s = s  #: (1 + J, n) compressions, and their arms
-        self.e = vector[: s.size].reshape(s.shape)  #: (1 + J, n) extensions and arms
+        self.e: NDArray[Any] = vector[: s.size].reshape(s.shape)  #: (1 + J, n) extensions and arms
         self.body = vector[s.size :]  #: (N_BODY,) see body.py
 
     @classmethod
-    def of(cls, e: Array, s: Array, body: Array) -> MarchState:
+    def of(cls, e: NDArray[Any], s: Array, body: NDArray[Any]) -> MarchState:
         """The state of these parts, copied."""
         return cls(np.concatenate([e.ravel(), body]).view(float), s.copy())
 
@@ -217,11 +218,11 @@ class Stepper:
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
         scaled, system = self.scaled, 0.0
-        for body, way, pull, (y, u_dot) in self.directions(*state.body):
-            u_dot += pull
+        for body, way, pull, (y, u_dot) in self.directions(state.body[Y], state.body[RATE]):
+            stretch, velocity = float(y), float(u_dot) + pull
             if way.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
-                u_dot, y = u_dot + float(way.x_dot[0]), y + float(way.x[0] - way.far_end[0])
-            system += 0.0 if body.rigid else 0.5 * body.K * y**2 + 0.5 * body.M * u_dot**2
+                velocity, stretch = velocity + float(way.x_dot[0]), stretch + float(way.x[0] - way.far_end[0])
+            system += 0.0 if body.rigid else 0.5 * body.K * stretch**2 + 0.5 * body.M * velocity**2
         ratios = np.concatenate([[1.0], scaled.rheology.rho])
         springs = 0.5 * float(ratios @ (np.abs(state.e) ** 2 @ scaled.springs.w))
         normal = 0.5 * float(ratios @ (state.s**2 @ scaled.springs.w))

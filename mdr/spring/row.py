@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 from numba.extending import overload
-from numba.types import Complex
+from numba.core.types import Complex
 
 from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
