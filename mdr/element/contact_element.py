@@ -2,7 +2,7 @@
 
 A step takes a state and the position of the indenter at its end, and answers force and new state. Nothing is kept
 elsewhere: a state is one array of numbers that the host copies, compares, stores and rolls back. In a step the indenter
-moves on a straight line, on which the springs go by the step of the library (mdr/spring/turning.py).
+moves on a straight line, on which the springs go by the step of the library (mdr/spring/row.py).
 
 The work that was done on the contact is summed from the area of the force over each step, and what the springs store
 is known from the state. The difference is what friction and material have turned into heat.

@@ -17,14 +17,15 @@ from mdr.march.body import RATE, Y
 from mdr.spring.contact import Look
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
 from mdr.spring.motion import glassy
-from mdr.spring.path import FAST, LENT, ROUNDING, Path, along
+from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path, along
 from mdr.spring.row import any_row, as_they_are
 from mdr.spring.times import tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath=FAST)
-_inner = inner(error_model="numpy", fastmath=FAST)
+_inner = inner(error_model="numpy", fastmath=FAST, **OWN)
+_lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
@@ -177,14 +178,14 @@ def march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_s
     return solved
 
 
-@_inner
+@_inline
 def all_springs(s, e, springs, path, z_dot, x_dot, law, tools, excess, look):
     """A step of the row, along a line or in the plane."""
     (gap, w), (T, modes, arms) = springs, law
     return any_row(s, e, gap, w, path, z_dot, x_dot, T, modes, arms, tools, excess, None, look)
 
 
-@_inner
+@_lent
 def stepped(e, s, room, held, last, body, side, springs, here, slip, flight, law, tools):
     """A step of springs and body: it moves as their force makes it, and they move with it.
 
@@ -357,7 +358,7 @@ def corrected_balance(impulse, force, stuck, when, sticking, body, law, h):
     return (d * impulse - b * force) / det, (a * force - c * impulse) / det
 
 
-@_inner
+@_lent
 def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
     """What is left of impulse (over h) and force if a light body moves to y with u; how little of them is none; and how
     it moves. e, s are updated.
@@ -371,7 +372,7 @@ def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
     return left, one
 
 
-@_inner
+@_lent
 def steepest(body, law, h):
     """The most by which force or impulse of a light body can change with its motion over a step."""
     return body.M / (h * h) + (body.C + law.T) / h + body.K + glassy(law.arms)

@@ -14,7 +14,7 @@ for a(t) = a(t_1), and what the springs inside carry is his force. More generall
 of the half-space, which their displacement s(x) and load q(x) stand for by Abel's transform at any instant, as long as
 those in contact fill a disc and p(r) from their loads (`mdr.surface_fields`) is nowhere tensile.
 
-Between samples the history is linear in time, and so the step of a spring (mdr/spring/step.py) is exact for one of
+Between samples the history is linear in time, and so the step of a spring (mdr/spring/contact.py) is exact for one of
 depth; of a history of force the depth is found in steps finer than the samples. Springs stand at nodes of the depth g
 and their loads are continued between them (indentation_kernels.py), so that an elastic force has no error of the number
 of springs.

@@ -14,6 +14,7 @@ from mdr.tools.jit import inner
 FAST = {"reassoc", "contract"}
 # arrays are only lent to these functions: numba need not count references to them, which takes time, to compile too
 LENT = {"_nrt": False}
+OWN = {"_nrt": True}  # of functions that make arrays; lent ones may call them, but get none of those
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 NEVER = np.inf

@@ -10,14 +10,14 @@ step (times.py). each: None or Each. look: None or Look. Both answer an Answer.
 from __future__ import annotations
 
 import numpy as np
-from numba.extending import overload
 from numba.core.types import Complex
+from numba.extending import overload
 
 from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
 from mdr.spring.line import rub_line
 from mdr.spring.motion import hold
-from mdr.spring.path import FAST, LENT
+from mdr.spring.path import FAST, LENT, OWN
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole
 from mdr.tools.jit import compiled, inner
@@ -34,7 +34,7 @@ def row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
     return one_row(rub_line, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
-@compiled(error_model="numpy", nogil=True, fastmath=FAST)
+@compiled(error_model="numpy", nogil=True, fastmath=FAST, **OWN)
 def row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look):
     """The step in the plane."""
     if look is None:  # noqa: SIM102 - numba leaves out what comes after one such condition, not after two
