@@ -32,7 +32,11 @@ OF_DASHPOT = {
     "G_VECTOR": ("contact_plus(o->e, CONTACT_T, p)", "o->e"),
     "VEL": ("contact_max(size - contact_max(R, 0.0), 0.0) / CONTACT_T", "contact_max(ahead, 0.0)"),
     "OR_OUT": (" || size > tol", ""),
-    "E_AFTER": ("contact_plus(contact_times(R + CONTACT_T * slip.vel, slip.n), -CONTACT_T, p)", "*f"),
+    "E_AFTER": (
+        "time->t < CONTACT_T ? contact_yielded(o->e, first, *f, &slip, time)"
+        " : contact_plus(contact_times(R + CONTACT_T * slip.vel, slip.n), -CONTACT_T, p)",
+        "*f",
+    ),
     "DECAY": ("time.decay", "0.0"),
     "STIFF": ("(1.0 + CONTACT_T / time->t)", "1.0"),
     "WITHIN": ("", ";\n   the extension is within the compression, as is the force"),

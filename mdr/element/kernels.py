@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.spring.contact import Each, press, within
+from mdr.spring.contact import Each, press
 from mdr.spring.law import Law
-from mdr.spring.motion import end_force, glassy
+from mdr.spring.motion import glassy
 from mdr.spring.path import Path
 from mdr.spring.row import any_row
 from mdr.spring.times import STEP, new_tools, tools_of
@@ -68,7 +68,7 @@ class Room(NamedTuple):
 @_inline
 def room_for(parts, n):
     """Room for n springs."""
-    each = Each(np.empty(n), np.empty(n))
+    each = Each(np.empty(n), np.empty(n, np.complex128), np.empty(n))
     return Room(np.empty((parts, n)), np.empty((parts, n), np.complex128), each, np.empty((3, 3, n)))
 
 
@@ -104,14 +104,10 @@ def fault(state, contact, mark):
 
 
 @_inline
-def forces(room, way, h, T, arms, F):
-    """Fill F (3, n) with the forces of the springs at the end of a way of the time h, over their stiffness: of what L
-    makes of their extension that part which friction bears.
-    """
-    rate = complex(way[0], way[1]) / h
-    for i in range(room.s.shape[1]):
-        f = within(end_force(room.e, i, rate, T, arms), room.each.force[i])
-        F[0, i], F[1, i], F[2, i] = f.real, f.imag, room.each.force[i]
+def forces(each, F):
+    """Fill F (3, n) with the forces of the springs over their stiffness."""
+    for i in range(each.f.size):
+        F[0, i], F[1, i], F[2, i] = each.f[i].real, each.f[i].imag, each.f_z[i]
 
 
 @_inline
@@ -128,7 +124,7 @@ def looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room):
     for k in range(1, 3):
         there[j] = way[j] + k * d
         moved(s, e, z_0, there, contact, T, modes, arms, tools, room)
-        forces(room, there, tools.times.h, T, arms, room.F[k])
+        forces(room.each, room.F[k])
 
 
 @_inline
@@ -204,7 +200,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
         now = np.array([of.end.real, of.end.imag, of.normal_end])
         new_s, new_e = room.s.copy(), room.e.copy()
         if tangents.size > 0:
-            forces(room, way, h, T, arms, room.F[0])
+            forces(room.each, room.F[0])
             far = np.abs(way).max()
             d = MOST * max(far, 1.0)
             if far > 0.0:  # at rest springs switch at no distance, or at a finite one

@@ -309,7 +309,7 @@ class _Springs:
 
     def moved(self, s: Array, u_0: float, u_1: float, step: Tools) -> Array:
         """The springs after the indenter has moved from u_0 to u_1 in a step; at once in one without length."""
-        s, g, each = s.copy(), self.row.g, Each(*np.empty((2, self.row.g.size)))
+        s, g, each = s.copy(), self.row.g, Each(*np.empty((3, self.row.g.size)))
         if step.times.h == 0:
             moves = (s[0] < u_1 - g) | ((self.law.T == 0) & (s[0] <= u_0 - g))  # a dashpot does not follow back
             s[1:, moves] += (u_1 - g - s[0])[moves]

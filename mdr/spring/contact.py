@@ -69,7 +69,8 @@ class Each(NamedTuple):
     """What is asked of each of n springs at the end of a step without a look."""
 
     since: Array  #: (n,) share of the step for which it has pressed; zero in flight
-    force: Array  #: (n,) normal force over its stiffness
+    f: Array  #: (n,) tangential force over its stiffness
+    f_z: Array  #: (n,) normal force likewise
 
 
 class Look(NamedTuple):
@@ -203,7 +204,7 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                         left = e[j, i] - s[j, i] if mode == STICK else -2.0 * s[j, i] if mode == SLIP_BACK else 0.0
                         excess[j, 0] += w[i] * left
         if each is not None:
-            each.since[i], each.force[i] = since / h if h > 0.0 else 0.0, R
+            each.since[i], each.f[i], each.f_z[i] = since / h if h > 0.0 else 0.0, f, R
         if look is not None:
             if mode != FREE:
                 look.F[2] = min(look.F[2], vel)

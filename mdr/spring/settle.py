@@ -102,7 +102,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
 def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # type: ignore[no-untyped-def]
     """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (5, n_t)."""
     h, n = tools.times.h, gap.size
-    each = Each(np.empty(n), np.empty(n))
+    each = Each(np.empty(n), np.empty(n), np.empty(n))
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
@@ -112,7 +112,7 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # t
             flies = flies and s[0, i] > z[k] - gap[i]
         of = press(s, gap, w, path, z_dot[k + 1], T, modes, arms, tools, each)
         if force.shape[0] > 0:
-            force[k], since[k] = each.force, each.since
+            force[k], since[k] = each.f_z, each.since
         pressed, flight = 0.0, 0.0
         for i in range(n):
             pressed = max(pressed, each.since[i])

@@ -125,7 +125,7 @@ class Row:
 
     def pressed(self):
         """Compressions, sums of area and moment, and for how long each has pressed, without friction."""
-        s, each = self.s.copy(), Each(*np.empty((2, self.gap.size)))
+        s, each = self.s.copy(), Each(*np.empty((3, self.gap.size)))
         rate, tools = self.from_then(self.h).z_1, tools_for(self.law, self.h)
         of = press(s, self.gap, self.w, self.path, rate, *self.law, tools, each)
         return s, of.normal_area, of.normal_moment, each.since

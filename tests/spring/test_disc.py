@@ -209,12 +209,13 @@ def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(law):
         rates = path.z_1 + 2 * H * path.z_2, x_1 + 2 * H * x_2
         nodes, tools = nodes_of(H, law.modes, law.arms), tools_for(law, H, in_plane=True)
         look = Look(nodes, np.zeros(N_SUMS), np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
-        of, each = answer(law, s_1, e_1, gap, w, path, H), Each(*np.empty((2, n)))
+        of, each = answer(law, s_1, e_1, gap, w, path, H), Each(np.empty(n), np.empty(n, complex), np.empty(n))
         known = row_in_plane(s_2, e_2, gap, w, path, *rates, *law, tools, each, look)
         assert len(set(look.mode)) > 1
         assert_allclose(s_1, s_2, rtol=0, atol=1e-14)
         assert_allclose(e_1, e_2, rtol=0, atol=3e-14)
         assert_allclose(of, known, rtol=0, atol=3e-14)
-        each_1 = Each(*np.empty((2, n)))
+        each_1 = Each(np.empty(n), np.empty(n, complex), np.empty(n))
         row_in_plane(s.copy(), e.copy(), gap, w, path, *rates, *law, tools, each_1, None)
-        assert_allclose(each_1, each, rtol=0, atol=1e-13)
+        for one, other in zip(each_1, each, strict=True):
+            assert_allclose(one, other, rtol=0, atol=1e-13)
