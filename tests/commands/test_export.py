@@ -16,7 +16,6 @@ def test_a_header_names_its_case_and_command(tmp_path, capsys):
     path = tmp_path / "foot.h"
     assert main(["export", EXAMPLE, "-o", str(path), "--json"]) == 0
     text, said = path.read_text(encoding="utf-8"), json.loads(capsys.readouterr().out)
-    assert len(text.splitlines()) <= 480
     assert f"mdr export {EXAMPLE}"[:60] in text
     assert '[material] model = "KelvinVoigt", E = 3000000.0' in text
     case = mdr.read_case(EXAMPLE)
