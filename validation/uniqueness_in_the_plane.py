@@ -93,13 +93,13 @@ def _scattered(stepper: Stepper, rng: np.random.Generator) -> MarchState:
     """Full slip, but every spring stretched anywhere within its disc."""
     state = stepper.full_slip()
     size, angle = np.sqrt(rng.uniform(size=state.s[0].size)), rng.uniform(0, 2 * np.pi, state.s[0].size)
-    state.e[:] = state.s[0] * size * np.stack([np.cos(angle), np.sin(angle)])
+    state.e[:] = state.s[0] * size * np.exp(1j * angle)
     return state
 
 
 def _apart(motions: list[MarchState], w: Array) -> float:
     one, two = motions
-    return float(((one.e - two.e) ** 2).sum(axis=0) @ w)
+    return float((np.abs(one.e - two.e) ** 2).sum(axis=0) @ w)
 
 
 def checks(effort: str) -> Checks:
