@@ -15,15 +15,7 @@ from typing import NamedTuple
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, STICK
 from mdr.spring.dragged import EVEN, TINY, Slip, slides, yielded
-from mdr.spring.energies import (
-    FRICTION_LOSS,
-    LEAST_SLIP,
-    SHEAR_VISCOUS,
-    lost_on_parabola,
-    nodes_of,
-    of_pressing,
-    of_sticking,
-)
+from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_pressing
 from mdr.spring.law import phi_of
 from mdr.spring.motion import end_force, glassy, held_force, hold
 from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, since, size_of, slope
@@ -233,8 +225,9 @@ def sticks(e, i, w, top, R, t, k, tol, T, modes, arms, tools, look):
         t, k = until, PART
     if look is not None:
         impulse = t * (at(R, 0.0) + 4.0 * at(R, 0.5 * t) + at(R, t)) / 6.0
-        nodes = look.nodes if t == tools.times.h else nodes_of(t, modes, arms)
-        of_sticking(look.sums, w, e, i, top.p, top.q, impulse, nodes, T, arms)
+        lost = lost_on_parabola(e, i, top.p, top.q, t, tools.times.h, look.nodes, T, modes, arms)
+        look.sums[STICK_IMPULSE] += w * impulse
+        look.sums[SHEAR_VISCOUS] += w * lost
         look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], 0.0)
     area, moment = hold(e, i, top.p, top.q, t, k, T, tools, arms)
     return Stretch(t, lasts, 0.0j, 0.0, area, moment)
@@ -356,8 +349,8 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
         return Stretch(0.0, False, 0.0j, 0.0, 0.0j, 0.0j)
     vel, R_0, R_m, R_1 = max(of.vel, 0.0) if lasts else 0.0, max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
     if look is not None:
-        nodes = look.nodes if t == h else nodes_of(t, modes, arms)
-        look.sums[SHEAR_VISCOUS] += w * lost_on_parabola(e, i, way.p, way.q, nodes, T, arms)
+        lost = lost_on_parabola(e, i, way.p, way.q, t, h, look.nodes, T, modes, arms)
+        look.sums[SHEAR_VISCOUS] += w * lost
         of_slip = R_0 * start.vel + 4.0 * R_m * max(of.l_m, 0.0) + R_1 * vel
         look.sums[FRICTION_LOSS] += w * t / 6.0 * of_slip
         look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], start.vel, vel)
@@ -405,8 +398,7 @@ def rub_disc(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
     """Spring i in contact for a time t from `begun` in the step on, as rub_line of line.py."""
     h, G, R = tools.times.h, glassy(arms), cubic(held_force(s, i, z[0], z[1], t, k, T, tools, arms), t)
     if look is not None:
-        nodes = look.nodes if t == h else nodes_of(t, modes, arms)
-        of_pressing(look.sums, w, s, i, z[0], z[1], nodes, T, arms)
+        of_pressing(look.sums, w, s, i, z[0], z[1], t, h, look.nodes, T, modes, arms)
     pressed, pressed_moment = hold(s, i, z[0], z[1], t, k, T, tools, arms)
     gone, zeros, mode, n, vel, top = 0.0, 0, BEGINS, 0.0j, 0.0, Way(x[0], x[1])
     area, moment, stuck, when = 0.0j, 0.0j, 0.0, 0.0

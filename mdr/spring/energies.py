@@ -7,11 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import phi_of
-from mdr.spring.path import FAST, LENT, along
+from mdr.spring.path import FAST, LENT, OWN, along
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+_own = inner(error_model="numpy", fastmath=FAST, **OWN)
 
 # the sums, in this order; of the slip velocity the least of springs that touch or leave
 N_SUMS = 9
@@ -98,7 +99,7 @@ def stored(x, i, arms):
 
 
 @_inline
-def lost_on_parabola(x, i, p, q, nodes, T, arms):
+def lost_on(nodes, x, i, p, q, T, arms):
     """What dashpot and arms of x[:, i] turn into heat over a time in which it is held on p t + q t²."""
     lost = 0.0
     for g in range(nodes.u.size):
@@ -112,10 +113,13 @@ def lost_on_parabola(x, i, p, q, nodes, T, arms):
     return lost
 
 
-@_inline
-def of_pressing(sums, w, s, i, z_1, z_2, nodes, T, arms):
-    """The normal part of a stretch of contact: the impulse of its force is answered."""
-    impulse = work = 0.0
+@_own
+def of_pressing(sums, w, s, i, z_1, z_2, t, h, whole, T, modes, arms):
+    """The normal part of a stretch of contact of a time t: the impulse of its force is answered.
+
+    whole: the rule over the step of h. What makes arrays is not lent any.
+    """
+    impulse, work, nodes = 0.0, 0.0, whole if t == h else nodes_of(t, modes, arms)
     for g in range(nodes.u.size):
         u = nodes.u[g]
         rate = z_1 + 2.0 * z_2 * u
@@ -129,23 +133,22 @@ def of_pressing(sums, w, s, i, z_1, z_2, nodes, T, arms):
         work += nodes.weight[g] * normal * rate
     sums[CONTACT_IMPULSE] += w * impulse
     sums[NORMAL_WORK] += w * work
-    sums[NORMAL_VISCOUS] += w * lost_on_parabola(s, i, z_1, z_2, nodes, T, arms)
+    sums[NORMAL_VISCOUS] += w * lost_on(nodes, s, i, z_1, z_2, T, arms)
     return impulse
 
 
-@_inline
-def of_sticking(sums, w, e, i, x_1, x_2, impulse, nodes, T, arms):
-    """The tangential part of a stretch in stick, under a normal force of this impulse."""
-    sums[STICK_IMPULSE] += w * impulse
-    sums[SHEAR_VISCOUS] += w * lost_on_parabola(e, i, x_1, x_2, nodes, T, arms)
+@_own
+def lost_on_parabola(x, i, p, q, t, h, whole, T, modes, arms):
+    """What dashpot and arms of x[:, i] turn into heat over a time t in which it is held on p t + q t²."""
+    return lost_on(whole if t == h else nodes_of(t, modes, arms), x, i, p, q, T, arms)
 
 
-@_inline
-def of_slipping(sums, w, sign, s, e, i, z, x, nodes, T, modes, arms, more):
+@_own
+def of_slipping(sums, w, sign, s, e, i, z, x, t, h, whole, T, modes, arms, more):
     """The tangential part of a stretch of slip along a line: the end of the spring follows e = sign (s - what is left
     alone). more (K,): room.
     """
-    (z_1, z_2), (x_1, x_2), K = z, x, 0
+    (z_1, z_2), (x_1, x_2), K, nodes = z, x, 0, whole if t == h else nodes_of(t, modes, arms)
     if modes is not None:
         K = modes.mu.size
         for k in range(K):

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, SLIP_BACK, STICK
-from mdr.spring.energies import LEAST_SLIP, nodes_of, of_pressing, of_slipping, of_sticking
+from mdr.spring.energies import LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_pressing, of_slipping
 from mdr.spring.motion import alone, held_force, hold, into_modes, of_modes, until_alone, until_held
 from mdr.spring.path import FAST, LENT, NEVER, below, on_parabola, plus, stays
 from mdr.spring.times import PART, fill
@@ -94,13 +94,14 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
             u, k = until, PART
             fill(u, modes, arms, tools.times, PART)
         if look is not None:
-            nodes = look.nodes if u == h else nodes_of(u, modes, arms)
-            impulse = of_pressing(look.sums, w, s, i, z_1, z_2, nodes, T, arms)
+            impulse = of_pressing(look.sums, w, s, i, z_1, z_2, u, h, look.nodes, T, modes, arms)
             if mode == STICK:
-                of_sticking(look.sums, w, e, i, x_1, x_2, impulse, nodes, T, arms)
+                look.sums[STICK_IMPULSE] += w * impulse
+                lost = lost_on_parabola(e, i, x_1, x_2, u, h, look.nodes, T, modes, arms)
+                look.sums[SHEAR_VISCOUS] += w * lost
             else:
                 ways = (z_1, z_2), (x_1, x_2)
-                of_slipping(look.sums, w, sign, s, e, i, *ways, nodes, T, modes, arms, tools.room.more)
+                of_slipping(look.sums, w, sign, s, e, i, *ways, u, h, look.nodes, T, modes, arms, tools.room.more)
         # the state after that time
         A, B = hold(s, i, z_1, z_2, u, k, T, tools, arms)
         pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B

@@ -1,10 +1,16 @@
 """What the stepper reads off a period."""
 
+import gc
+
+import numba
 import numpy as np
 import pytest
+from numba.core.runtime import _nrt_python, rtsys
 from numpy.testing import assert_allclose
 
-from mdr.march.stepper import least_between
+import mdr
+from mdr.march.march import Resolution, at_hand
+from mdr.march.stepper import Stepper, least_between
 
 PHASE = 2 * np.pi * np.arange(64) / 64
 
@@ -21,3 +27,21 @@ def test_no_value_is_made_up_beside_a_jump():
     assert least_between(values) == 0.1
     assert least_between(np.array([3.0, 2.0, 1.0, np.inf, np.inf, np.inf])) == 1.0
     assert least_between(np.array([1.0, 0.0, -0.2, 0.0, 1.0, 2.0])) == -0.2
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+@pytest.mark.parametrize("shake", [None, mdr.InPlaneOscillation(300.0, 3e-6, 1.0, 6e-6, 2.0)], ids=["line", "plane"])
+def test_a_close_look_leaves_no_array_behind(shake):
+    """Rules over parts of a step are made in compiled code that lends its arrays."""
+    motion = mdr.NormalOscillation(5e-6, 8e-6, 300.0)
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.4, 1e-3), 0.4, motion, shake=shake)
+    _, scaled = at_hand(case, Resolution(32, 64, "full_slip", True))
+    stepper = Stepper(scaled, 0.3)
+    start = stepper.full_slip()
+    stepper.observe(start, keep=False)
+    _nrt_python.memsys_enable_stats()
+    before = rtsys.get_allocation_stats()
+    stepper.observe(start, keep=False)
+    gc.collect()
+    after = rtsys.get_allocation_stats()
+    assert after.alloc - before.alloc == after.free - before.free > 0
