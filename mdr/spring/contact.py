@@ -179,7 +179,7 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                     normal_moment += w[i] * of.normal_moment
             if not ends:
                 break
-            if look is not None and presses:
+            if look is not None and presses and t > ROUNDING * h:
                 look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], vel)
             done += t
             z_0, z_1, presses = z_0 + t * (z_1 + t * path.z_2), z_1 + 2.0 * path.z_2 * t, not presses

@@ -1,4 +1,4 @@
-"""The contact modes of a spring; step.py says what ends each of them."""
+"""The contact modes of a spring; line.py says what ends each of them."""
 
 from enum import IntEnum
 
