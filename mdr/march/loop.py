@@ -1,9 +1,9 @@
 """The compiled march: springs and body step by step, period by period.
 
 Scaled form (dimensionless.py): time is omega t, normal lengths are in du_z, tangential ones in mu_0 kappa du_z,
-stiffnesses in that of the array. What moves in the plane is a number along the pull, and a complex one where something
-moves across it too: its type is the dimension. A state are extensions (1 + J, n) of the springs and their arms, and the
-body (body.py). The compressions go beside it, as friction has no part in them.
+stiffnesses in that of the array. Ways, extensions and tangential forces are real numbers where all moves along the
+pull, and complex ones, along and across it, where something moves across it too. A state are extensions (1 + J, n) of
+the springs and their arms, and the body (body.py). The compressions go beside it, as friction has no part in them.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -28,10 +28,10 @@ _inner = inner(error_model="numpy", fastmath=FAST, **OWN)
 _lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
-SHORTEST = 1e-6  #: part of a step that is one for itself, over the step
+SHORTEST = 1e-6  #: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
 MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
 MOST_PLACES = 99  #: in the search for a zero of one unknown
-CLOSE = 1e-11  #: force that may be left in a step, over that of the springs; a periodic state may change by more
+CLOSE = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
 
 
 class Motion(NamedTuple):
@@ -84,7 +84,7 @@ class Moves(NamedTuple):
     """The body in one direction over a step."""
 
     y: float  #: its motion relative to the pull, at the end
-    q: float  #: its rate there; y'' h²/2 of a light body: the other unknown
+    q: float  #: the second unknown of Newton's method: its rate there, or u = y'' h²/2 of a light body
     rate: float
     b_1: float  #: it moves by b_1 t + b_2 t²
     b_2: float
@@ -147,10 +147,10 @@ def later(path, t):
 def march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
 
-    body, side: along the pull, or None if it is rigid; and across it, or None where nothing moves there. slip: the
-    FullSlipForce of a body along one line, else None; flight (n_t,): of a light one, time to the first touch in a step
-    that begins without contact, else zero. What is None is compiled away. trace: filled. Returns whether every step was
-    solved for.
+    body, side: Body along the pull and across it. Along a line side is None, and body too if it is rigid; in the plane
+    neither is. slip: the FullSlipForce of a body along a line, else None; flight (n_t,): of a light one there, time to
+    the first touch in a step that begins without contact, else zero. What is None is compiled away. trace: filled.
+    Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
     excess = np.zeros((s.shape[0], 1))
@@ -191,8 +191,11 @@ def stepped(e, s, room, held, last, body, side, springs, here, slip, flight, law
 
     Newton's method on its motion at the end, by the stiffness of what sticks. Along a line turn 0 takes the force that
     the springs have if none changes its mode (`last`), which most often is the true one; and where other springs stick
-    under a light body at every turn, `enclosed` finds them. Returns path, area, moment, what springs do at the end and
-    whether this was solved; e, s, held are updated.
+    under a light body at every turn, `enclosed` finds them.
+
+    room: for e, s and the excess of `row`. flight: here it only tells a light body along a line. The others as of
+    `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and whether this
+    was solved; e, s, held are updated.
     """
     e_0, s_0, excess = room
     h, path, found = tools.times.h, here.path, False
@@ -309,10 +312,10 @@ def corrected_way(off, off_rate, share, body):
 
 @_inner
 def follow(e, s, room, held, last, body, springs, here, slip, flight, flown, law, tools, j, trace):
-    """Step j of a light body, in two parts where the first spring touches within it, after the time `flown`, as that
-    throws the body.
+    """Step j of a light body, in two parts where the first spring touches within it, after the time `flown`: a touch
+    changes the velocity of the body at once.
 
-    here: motion of the indenter over the step; others as of `stepped`. Returns area and moment of the force, what
+    The parts are left in the trace; the others as of `stepped`. Returns area and moment of the force, what
     springs do at the end and whether all was solved.
     """
     h, area, moment, solved, begin, first = tools.times.h, 0.0, 0.0, True, 0.0, 1

@@ -29,7 +29,7 @@ from mdr.tools.jit import compiled, inner
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
-MOST_EVENTS = 100  #: of a spring in one step; what comes after the last would be left out
+MOST_EVENTS = 100  #: of a spring in one step or stretch of contact; what comes after the last would be left out
 
 
 class Answer(NamedTuple):
@@ -68,7 +68,7 @@ class Friction(NamedTuple):
 class Each(NamedTuple):
     """What is asked of each of n springs at the end of a step without a look."""
 
-    since: Array  #: (n,) share of the step for which it has pressed; zero in flight
+    since: Array  #: (n,) share of the step for which it has pressed since it last touched; zero in flight
     f: Array  #: (n,) tangential force over its stiffness
     f_z: Array  #: (n,) normal force likewise
 
@@ -86,7 +86,9 @@ class Look(NamedTuple):
 
 @_inline
 def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, tools):
-    """Whether spring i presses or flies, as it did at the event before, and until when: infinite for the time t."""
+    """Whether spring i presses, and until when it goes on as it does: infinite for all of the time t. At the begin of a
+    step one that touches may already be let go; later on it does what the event before has told.
+    """
     x, until, fallen, rate, of_force = s[0, i], NEVER, 0.0, 0.0, tol * G
     if presses:
         normal = held_force(s, i, z_1, z_2, t, k, T, tools, arms)
@@ -94,11 +96,12 @@ def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, too
     if presses and not stays(normal, t, of_force):
         until = until_held(normal, x, s, s, i, 1.0, 0.0, z_1, z_2, t, of_force, T, modes, arms, tools)
     if not presses:
-        if modes is not None:
-            rate, fallen = modes.mu[0], tools.times.decay[k, 0]
-        left, _ = alone(x, rate, fallen)
         if arms is not None:
             left, _ = into_modes(s, s, i, 0.0, k, tools, modes)
+        else:
+            if modes is not None:
+                rate, fallen = modes.mu[0], tools.times.decay[k, 0]
+            left, _ = alone(x, rate, fallen)
         apart = plus(left, -1.0, on_parabola(z_0, z_1, z_2, 0.0, t))
         if not stays(apart, t, tol):
             until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
@@ -154,7 +157,7 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                 fill(t, modes, arms, tools.times, PART)
             if not presses:
                 mode, since, before = FREE, 0.0, (0.0, 0.0)
-                if look is not None and modes is not None:  # without, the rounding of an end of contact is left
+                if look is not None and modes is not None:  # without, nothing is lost in flight but a rounding
                     before = stored(s, i, arms), stored(e, i, arms)
                 relax(s, i, k, modes, arms, tools.room.modes, tools.times)
                 if e is not None:
@@ -184,7 +187,7 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
             done += t
             z_0, z_1, presses = z_0 + t * (z_1 + t * path.z_2), z_1 + 2.0 * path.z_2 * t, not presses
             if presses:
-                if e is not None:  # the rounding of the touch is that of both, so that full slip stays what it is
+                if e is not None:  # moved as s is, so that |e| = s stays true
                     e[0, i] += direction(e[0, i]) * (z_0 - s[0, i])
                 s[0, i] = z_0
             t, k = h - done, PART

@@ -28,8 +28,9 @@ BEGINS = -1  #: the mode is still to be found
 
 @_inner
 def slip_velocity(mode, s, e, i, share, z_1, x_1, off, modes):
-    """Velocity over the plane of a spring in contact, at a share of the step at which the parabolas have the rates z_1
-    and x_1: by rates of the cubic that has the true ones, which are off by `off`, at both ends of the step.
+    """Velocity over the plane of a spring in contact, below zero in slip back, at a share of the step, where the
+    parabolas have the rates z_1 and x_1. The true rates differ from theirs by `off` at both ends of the step, and are
+    those of a cubic in between.
     """
     if mode == STICK:
         return 0.0
@@ -47,18 +48,16 @@ def slip_velocity(mode, s, e, i, share, z_1, x_1, off, modes):
 def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, look):
     """Spring i in contact for a time t from `begun` in the step on; s and e are updated.
 
-    z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that t has. tol: rounding. off: as of
-    slip_velocity. look: None or Look.
+    z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that t has. tol: rounding of a length.
+    off: as of slip_velocity. look: None or Look.
     """
-    h, n_x, gone, mode = tools.times.h, s.shape[0], 0.0, BEGINS
+    h, gone, mode = tools.times.h, 0.0, BEGINS
     area = moment = stuck = when = pressed = pressed_moment = 0.0
     for _ in range(MOST_EVENTS):
         u, s_0, e_0 = t - gone, s[0, i], e[0, i]
         (z_1, z_2), (x_1, x_2) = (z[0] + 2.0 * z[1] * gone, z[1]), (x[0] + 2.0 * x[1] * gone, x[1])
-        press, shear = (
-            held_force(s, i, z_1, z_2, u, k, T, tools, arms),
-            held_force(e, i, x_1, x_2, u, k, T, tools, arms),
-        )
+        press = held_force(s, i, z_1, z_2, u, k, T, tools, arms)
+        shear = held_force(e, i, x_1, x_2, u, k, T, tools, arms)
         ahead, behind = plus(press, -1.0, shear), plus(press, 1.0, shear)
         if mode == BEGINS:
             forward, backward = below(ahead, tol), below(behind, tol)
@@ -80,11 +79,12 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
                 until, after = (back, SLIP_BACK) if back < until else (until, after)
         else:
             lag, rate = s_0 - sign * e_0, 0.0
-            if modes is not None:
-                rate, fallen = modes.mu[0], tools.times.decay[k, 0]
-            _, left_rate = alone(lag, rate, fallen)
             if arms is not None:
                 _, left_rate = into_modes(s, e, i, sign, k, tools, modes)
+            else:
+                if modes is not None:
+                    rate, fallen = modes.mu[0], tools.times.decay[k, 0]
+                _, left_rate = alone(lag, rate, fallen)
             p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
             slips = plus(left_rate, 1.0, on_parabola(p, q, 0.0, 0.0, u))
             if not stays(slips, u, tol):
@@ -108,13 +108,13 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
         if mode == STICK:
             A, B = hold(e, i, x_1, x_2, u, k, T, tools, arms)
             stuck, when = stuck + u, when + u * (begun + gone + 0.5 * u)
+        elif arms is not None:
+            for j in range(s.shape[0]):
+                e[j, i] = sign * (s[j, i] - of_modes(j, k, tools.room.modes, tools.times, modes))
         else:
             if modes is not None:
                 fallen = tools.times.decay[k, 0]
             e[0, i] = sign * (s[0, i] - lag * fallen)
-            if arms is not None:
-                for j in range(n_x):
-                    e[j, i] = sign * (s[j, i] - of_modes(j, k, tools.room.modes, tools.times, modes))
         area, moment = area + sign * A, moment + sign * ((begun + gone) * A + B)
         if not ends:
             break

@@ -67,10 +67,10 @@ def below(f, tol):
 
 @_inline
 def stays(f, t, tol):
-    """Whether f surely stays above -tol, where it begins; False means that it is not known.
+    """Whether f, which begins above -tol, surely stays there; False means that it is not known.
 
     Convex (low >= 0): it lies above the crossing of the tangents at its ends. Concave (high <= 0): above its values at
-    the ends. Else: above one of two parabolas of the curvature low, from either end.
+    the ends. Else: above the higher of two parabolas of the curvature low, from either end.
     """
     lowest = f.v_1
     if f.low >= 0.0:
@@ -84,14 +84,16 @@ def stays(f, t, tol):
 
 @_inline
 def on_parabola(x, p, q, T, t):
-    """L of x + p t + q t², without arms."""
+    """Ends of L[x + p t + q t²], without arms."""
     v_1, d_1 = x + t * (p + q * t) + T * (p + 2.0 * q * t), p + 2.0 * q * t + 2.0 * T * q
     return Ends(x + T * p, p + 2.0 * T * q, v_1, d_1, 2.0 * q.real, 2.0 * q.real)
 
 
 @_inline
 def zero_of_parabola(f, t, tol, a, b, c):
-    """First time at which a + b t + c t² falls below zero; infinite for none."""
+    """First time up to t at which a + b t + c t², with the Ends f, falls below zero; infinite for none, or for a dip
+    of less than tol between its ends.
+    """
     if a <= tol and (b < 0.0 or (b == 0.0 and c < 0.0)):
         return 0.0
     inside = b * b - 4.0 * a * c
@@ -115,7 +117,7 @@ def area_on_parabola(x, p, q, T, t):
 
 @_inline
 def cubic(f, t):
-    """The cubic with the values and slopes of Ends over a time t."""
+    """The cubic with the values and slopes of the Ends f, a time t apart."""
     mean = (f.v_1 - f.v_0) * (1.0 / t)
     c = (3.0 * mean - 2.0 * f.d_0 - f.d_1) * (1.0 / t)
     return Cubic(f.v_0, f.d_0, c, (f.d_0 + f.d_1 - 2.0 * mean) * (1.0 / (t * t)))

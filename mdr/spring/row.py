@@ -1,9 +1,9 @@
 """The step of a row of springs with friction: along a line, or in the plane. Lengths are scaled so that Coulomb's law
-has no coefficient. The door without friction is `press` (contact.py).
+has no coefficient. Without friction it is `press` (contact.py).
 
 gap, w (n,): depth of each foot, share in the stiffness. s, e (1 + J, n), updated: row 0 is compression and extension,
 row j the stretch of arm j; e is complex in the plane. zd, xd: rates of the top at the end of the step. tools: of the
-step (times.py). each: None or Each. look: None or Look. Both answer an Answer.
+step (times.py). each: None or Each. look: None or Look. Each row answers an Answer.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -53,7 +53,7 @@ def row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look):
 
 
 def any_row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    """The step along a line, or in the plane, as the type of e says."""
+    """The step along a line, or in the plane, without the excess: as the type of e says."""
     if np.iscomplexobj(e):
         return row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look)
     return row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)

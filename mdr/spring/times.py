@@ -28,8 +28,8 @@ class Room(NamedTuple):
 
     modes: Array  #: (K,) of a compression, or of what is left alone in slip
     vectors: Array  #: (K,) of an extension, of its type
-    work: Array  #: (J + K,)
-    more: Array  #: (K,)
+    work: Array  #: (J + K,) of a function whose zero is sought
+    more: Array  #: (K,) of the account of energies
 
 
 class Tools(NamedTuple):
