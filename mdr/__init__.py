@@ -29,9 +29,9 @@ from mdr.closed_forms import laws
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.march.run import SlidingRun
+from mdr.march.result.run import SlidingRun
 from mdr.spring.contact_modes import State
-from mdr.march.slide import slide
+from mdr.march.result.slide import slide
 from mdr.element.contact_element import ContactElement
 from mdr.element.record import SlideRecord, slide_record
 from mdr.element.random_cof import RandomCof, random_cof

@@ -9,7 +9,7 @@ from conftest import contact
 
 import mdr
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction
-from mdr.march.march import Resolution, march
+from mdr.march.periodic.steady import Resolution, steady
 from mdr.materials.operator import Rheology
 from mdr.normal import indentation
 from mdr.spring.law import law_of
@@ -75,7 +75,7 @@ def searches():
     for name in ("elastic", "arms"):
         of_pull = contact("paraboloid", k_ratio=0.7, omega_0_ratio=1.6, c_ratio=0.1)
         case = replace(of_pull, material=MATERIALS[name])
-        run = march(case, 0.4 * case.unit_velocity, Resolution(16, 24, "full_slip", lump=True, accuracy=1e-8))
+        run = steady(case, 0.4 * case.unit_velocity, Resolution(16, 24, "full_slip", lump=True, accuracy=1e-8))
         yield f"search, {name}", [run.cof, run.settling.solved]
 
 

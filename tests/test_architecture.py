@@ -193,7 +193,7 @@ def test_the_normal_motion_of_a_spring_has_no_friction_in_it(house):
 def test_the_compiled_march_knows_numbers_alone(house):
     """No shape, no case and no spring array."""
     _, imports = house
-    assert {room_of(module) for module in reach(imports, ["mdr.march.loop"])} == {"march", "spring", "tools"}
+    assert {room_of(module) for module in reach(imports, ["mdr.march.dynamics.loop"])} == {"march", "spring", "tools"}
 
 
 def test_the_half_space_and_the_springs_know_nothing_of_each_other(house):

@@ -41,12 +41,12 @@ from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.march.body import Y
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.orbit_search import search_from_full_slip
-from mdr.march.steady_state import TOLERANCE, Settling
-from mdr.march.stepper import Stepper
-from mdr.march.waiting import Waiting, way_from_rest
+from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.stepper import TOLERANCE, Stepper
+from mdr.march.periodic.search import search_from_full_slip
+from mdr.march.periodic.settling import Settling
+from mdr.march.periodic.waiting import Waiting, way_from_rest
 from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress

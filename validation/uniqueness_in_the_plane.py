@@ -19,8 +19,8 @@ from functools import cache
 import numpy as np
 
 import mdr
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.stepper import MarchState, Stepper
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.stepper import MarchState, Stepper
 from mdr.spring.contact_modes import SLIP
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, OMEGA, SHAPES, contact

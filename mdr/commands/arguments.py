@@ -12,7 +12,7 @@ import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import WrongInput
 from mdr.files.toml_text import StandardInput
-from mdr.march.march import BUDGET, accuracy_of
+from mdr.march.periodic.steady import BUDGET, accuracy_of
 from mdr.tools.notation import UNITS, is_number, number_in, parted, scale_of, value_in
 
 OF_V_C, OF_MU_0 = "v_c", "mu_0"  #: units of multiples

@@ -21,6 +21,7 @@ from mdr.normal.load_control import static_depths
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import EXACT, SAME, Array
 from mdr.tools.checks import FieldError, count, finite_array, instance, instants, positive
+from mdr.tools.companions import Companion, bound
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
@@ -209,7 +210,7 @@ def slide_record(
     (cof, cof_y), off = best.cof, [float(np.abs(one.cof - found[0].cof).max()) for one in found[1:]]
     if material.tau > 0 and not exact:  # the errors of steps at a dashpot differ in sign: interval by interval
         off[1] = float(np.abs(found[2].area - found[0].area)[:, :2].sum(axis=0).max() / best.area[:, 2].sum())
-    error = off[0] + sum(STEPS_OFF * one for one in off[1:])
+    error = bound(Companion(off[0]), *(Companion(one, STEPS_OFF) for one in off[1:]))
     along, pressed = np.cumsum(best.area[:, 0]), np.cumsum(best.area[:, 2])
     along[0], pressed[0] = best.F[0, 0], best.F[0, 2]  # of no time: of the forces there
     return SlideRecord(

@@ -14,7 +14,7 @@ from matplotlib.colors import to_hex
 
 from mdr.explorer.canvas import GREY, canvas, data_of, span, swatches
 from mdr.explorer.springs import DIRECTIONS, FRAMES, frames_of, map_of
-from mdr.march.run import SlidingRun
+from mdr.march.result.run import SlidingRun
 from mdr.plots import COLOURS, MODES, around, periods_of, prefix
 from mdr.plots.side_view import SideView
 

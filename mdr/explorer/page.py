@@ -22,7 +22,7 @@ from mdr.explorer.over_period import OverPeriod, forces_legend, springs_legend
 from mdr.explorer.pictures import Picture, pictures_of, verdict_of
 from mdr.explorer.state import State
 from mdr.given.case_file import parse_case
-from mdr.march.march import LEAST_ACCURATE
+from mdr.march.periodic.steady import LEAST_ACCURATE
 from mdr.tools.compiling import TALLY
 
 COMPUTING = "computing …"

@@ -19,9 +19,9 @@ from mdr.explorer.state import DECADE, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
 from mdr.friction.verdict import verdict
-from mdr.march.march import LEAST_ACCURATE
-from mdr.march.run import SlidingRun
-from mdr.march.slide import slide
+from mdr.march.periodic.steady import LEAST_ACCURATE
+from mdr.march.result.run import SlidingRun
+from mdr.march.result.slide import slide
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import plausibility, resolved
 from mdr.tools.arrays import Array

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.run import SlidingRun
+from mdr.march.result.run import SlidingRun
 from mdr.plots import MODES, edges_of
 from mdr.plots.side_view import SideView
 from mdr.spring.contact_modes import SLIP

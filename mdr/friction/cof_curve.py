@@ -20,9 +20,11 @@ from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.closed_forms.shaken_pull import ShakenPull, has_closed_form
 from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
-from mdr.march.march import BUDGET, accuracy_of
-from mdr.march.slide import SLOWEST, cofs_without_bound, slides
-from mdr.march.theorems import disordered
+from mdr.march.periodic.steady import BUDGET, Resolution, accuracy_of
+from mdr.march.periodic.theorems import disordered
+from mdr.march.result.refinement import resolution_of
+from mdr.march.result.run import finish
+from mdr.march.result.slide import SLOWEST, runs
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, row
@@ -322,18 +324,19 @@ def _runs(
 ) -> Columns:
     """One run for each velocity."""
     velocities = progress(v_0.tolist(), "COF curve", "velocities")
-    runs = list(slides(case, velocities, n_springs, steps_per_period, accuracy))
+    found = [finish(end) for end in runs(case, velocities, resolution_of(case, n_springs, steps_per_period, accuracy))]
     of_runs = ("cof", "cof_error", "stick_share", "cof_y")
-    cof, error, sticks, cof_y = (np.array([getattr(run, key) for run in runs]) for key in of_runs)
-    settled = np.array([run.settled for run in runs], dtype=bool)
-    return Columns(cof, error, settled, sticks, np.array([run.why for run in runs], dtype=object), cof_y)
+    cof, error, sticks, cof_y = (np.array([getattr(run, key) for run in found]) for key in of_runs)
+    settled = np.array([run.settled for run in found], dtype=bool)
+    return Columns(cof, error, settled, sticks, np.array([run.why for run in found], dtype=object), cof_y)
 
 
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
     """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
+    resolution = Resolution(n_springs, steps_per_period, "full_slip", lump=True, bounded=False)
 
     def quick(one: SlidingContact, v_0: Array) -> Columns:
-        cof = np.array(list(cofs_without_bound(one, v_0.tolist(), n_springs, steps_per_period)))
+        cof = np.array([case.mu_0 * end.cof for end in runs(one, v_0.tolist(), resolution)])
         return Columns.exact(cof, 0 * cof, 0 * cof)
 
     case = resolved(case)

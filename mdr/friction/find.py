@@ -24,7 +24,7 @@ from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
 from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held
-from mdr.march.march import BUDGET, LEAST_ACCURATE
+from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
 from mdr.tools.arrays import EXACT

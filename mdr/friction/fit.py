@@ -21,7 +21,7 @@ from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
 from mdr.given.vary import still_held, warn_of_load
-from mdr.march.refinement import default_springs, default_steps
+from mdr.march.result.refinement import default_springs, default_steps
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.keywords import offering

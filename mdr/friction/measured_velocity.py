@@ -29,10 +29,10 @@ from itertools import product
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.march.march import BUDGET, Converged, accuracy_of
-from mdr.march.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
-from mdr.march.run import SlidingRun
-from mdr.march.slide import slide, slide_without_bound
+from mdr.march.periodic.steady import BUDGET, Converged, Resolution, accuracy_of
+from mdr.march.result.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
+from mdr.march.result.run import SlidingRun, finish
+from mdr.march.result.slide import runs, slide
 from mdr.normal.resolved import resolved
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
@@ -193,13 +193,11 @@ class _Search:
 
     def _without_bound(self, v_0: float, start: str, steps: int) -> SlidingRun:
         """A run; one from full slip begins in the state of the last in which springs stuck."""
-        near, n_springs = self.near if start == "full_slip" else None, self.n_springs
-        run, end = slide_without_bound(
-            self.case, v_0, n_springs=n_springs, steps_per_period=steps, start=start, near=near
-        )
+        near = self.near if start == "full_slip" else None
+        end = next(runs(self.case, [v_0], Resolution(self.n_springs, steps, start, lump=True, bounded=False), near))
         if start == "full_slip":
             self.near = end.to_begin_from or self.near
-        return run
+        return finish(end)
 
     def _begin(self, v_0: float) -> None:
         """One more run, if there is time."""

@@ -17,8 +17,8 @@ from mdr.case.pull import RigidPull
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import cof_curve
-from mdr.march.march import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
-from mdr.march.slide import slide
+from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
+from mdr.march.result.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, SAME, beyond
 from mdr.tools.checks import finite

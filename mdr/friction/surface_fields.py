@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.indenters.mapped import rim_pressure
 from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.stable_functions import arcosh, leg
-from mdr.march.run import SlidingRun
+from mdr.march.result.run import SlidingRun
 from mdr.normal.indentation import Indentation
 from mdr.normal.partial_slip import PartialSlip
 from mdr.spring.contact_modes import State

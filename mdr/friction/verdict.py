@@ -21,8 +21,8 @@ from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
 from mdr.friction.measured_velocity import ACROSS, HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space
-from mdr.march.march import BUDGET
-from mdr.march.slide import slide
+from mdr.march.periodic.steady import BUDGET
+from mdr.march.result.slide import slide
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import between

@@ -16,7 +16,7 @@ from mdr.element.contact_element import ContactElement
 from mdr.element.record import slide_record
 from mdr.friction.cof_curve import cof_curve
 from mdr.indenters.paraboloid import Paraboloid
-from mdr.march.slide import slide
+from mdr.march.result.slide import slide
 from mdr.materials import Elastic, KelvinVoigt, Material, Prony
 from mdr.normal.indentation import indent
 from mdr.tools.fields import example_of

@@ -23,6 +23,7 @@ from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Step
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite, positive, row
+from mdr.tools.companions import Companion, bound
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import time_is_over, time_limit
@@ -367,15 +368,14 @@ def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: End
     }
     begin = {"wide": near.wide, "halved": fine.steps[-1] if settings.settled else near.halved}
     least = _least(case, settings)
-    errors, ends = dict.fromkeys(coarser, 2 * case.mu_0), near._replace(fine=fine.steps[-1])
+    told, ends = dict.fromkeys(coarser, Companion(2 * case.mu_0)), near._replace(fine=fine.steps[-1])
     for name, other in coarser.items():
         if time_is_over():
             break
         found = last_period(case, v_0, other, begin[name], arrived=begin[name] is fine.steps[-1])
         ends = ends._replace(**{name: found.steps[-1]})
-        # what a companion changes counts twice
-        errors[name] = max(2.0 * _apart(fine.friction, found.friction), least[name])
-    return _record(case, v_0, settings, fine, errors["wide"], errors["halved"]), ends
+        told[name] = Companion(_apart(fine.friction, found.friction), 2.0, least[name])
+    return _record(case, v_0, settings, fine, told["wide"], told["halved"]), ends
 
 
 def _least(case: SlidingContact, settings: Settings) -> dict[str, float]:
@@ -395,7 +395,7 @@ def _apart(one: Friction, other: Friction) -> float:
 
 
 def _record(
-    case: SlidingContact, v_0: float, settings: Settings, last: LastPeriod, grid: float, step: float
+    case: SlidingContact, v_0: float, settings: Settings, last: LastPeriod, grid: Companion, step: Companion
 ) -> HalfSpaceRun:
     found, mu_0 = last.friction, case.mu_0
     rest = found.settling if found.cycles > 1 else 2 * mu_0  # between -mu_0 and mu_0 no two are further apart
@@ -406,9 +406,9 @@ def _record(
     places = last.contact.half_space.places
     return HalfSpaceRun(
         **{name: getattr(found, name) for name in ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")},
-        cof_error=min(grid + step + rest, 2 * mu_0),
-        grid_error=grid,
-        step_error=step,
+        cof_error=min(bound(grid, step, Companion(rest)), 2 * mu_0),
+        grid_error=grid.error,
+        step_error=step.error,
         cycle_error=rest,
         settled=settled,
         kind="unsettled" if not settled else "periodic" if share else "full slip",

@@ -34,7 +34,7 @@ from mdr.files.case_files import record_of
 from mdr.files.toml_text import CaseFileError, parse_toml, read_text, told, tried
 from mdr.friction.cof_curve import require_knobs
 from mdr.given.case_file import case_of, stand_in
-from mdr.march.march import BUDGET, accuracy_of
+from mdr.march.periodic.steady import BUDGET, accuracy_of
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.studies.work import MOST_NUMBERS

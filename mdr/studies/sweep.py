@@ -14,7 +14,7 @@ from mdr.case.contact import SlidingContact, as_given
 from mdr.friction.cof_curve import require_knobs
 from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held
-from mdr.march.march import BUDGET, accuracy_of
+from mdr.march.periodic.steady import BUDGET, accuracy_of
 from mdr.normal.resolved import at_rest
 from mdr.studies.axes import read_axes
 from mdr.studies.engine import Call

@@ -10,7 +10,7 @@ import mdr
 from mdr.friction import find as module
 from mdr.friction.cof_curve import friction_at
 from mdr.given.vary import case_at
-from mdr.march.march import BUDGET, LEAST_ACCURATE
+from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE
 
 BALL, RUBBER, OMEGA = mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=2e-4), 314.0
 CASE = mdr.SlidingContact(BALL, RUBBER, 0.5, mdr.NormalOscillation(20e-6, 4e-6, OMEGA))

@@ -104,17 +104,14 @@ def test_measuring_sees_runs_only(monkeypatch):
 def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
     """The measurement follows its runs: if they stick up to 1.07 v_c, so it says."""
     case = make(*MEASURED["flat, rigid"])
-    slide, without_bound = measured_velocity.slide, measured_velocity.slide_without_bound
+    slide, runs, finish = measured_velocity.slide, measured_velocity.runs, measured_velocity.finish
 
     def slower(run):
         return replace(run, v_0=1.07 * run.v_0, least_slip=1.07 * run.least_slip)
 
-    def slow_without_bound(case, v_0, **knobs):
-        run, end = without_bound(case, v_0 / 1.07, **knobs)
-        return slower(run), end
-
     monkeypatch.setattr(measured_velocity, "slide", lambda case, v_0, **knobs: slower(slide(case, v_0 / 1.07, **knobs)))
-    monkeypatch.setattr(measured_velocity, "slide_without_bound", slow_without_bound)
+    monkeypatch.setattr(measured_velocity, "runs", lambda case, v_0, *args: runs(case, [v_0[0] / 1.07], *args))
+    monkeypatch.setattr(measured_velocity, "finish", lambda end: slower(finish(end)))
     found = mdr.measure_critical_velocity(case)
     assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=BUDGET)
 
@@ -207,7 +204,7 @@ def test_any_periodic_depth_under_a_rigid_pull_has_a_closed_form(monkeypatch, na
     case = replace(contact(shape, 3.0, T), oscillation=motion)
     v_0 = case.unit_velocity * np.array([0.0, 0.1, 0.5, 0.9])
     marched = mdr.cof_curve(case, v_0, method="march")
-    monkeypatch.setattr("mdr.friction.cof_curve.slides", None)  # no run
+    monkeypatch.setattr("mdr.friction.cof_curve.runs", None)  # no run
     closed = mdr.cof_curve(case, v_0)
     assert np.all(np.abs(closed.cof - marched.cof) <= closed.cof_error + marched.cof_error)
     assert np.all(closed.cof_error < 1e-7)

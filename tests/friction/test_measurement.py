@@ -9,7 +9,7 @@ from conftest import contact
 
 import mdr
 from mdr.friction import measured_velocity
-from mdr.march.refinement import default_steps
+from mdr.march.result.refinement import default_steps
 
 CASE = contact("paraboloid", 3.0, 0.0, 0.7, 1.6, 0.1)
 UNIT = CASE.unit_velocity
@@ -20,7 +20,7 @@ def world(monkeypatch):
     """In the place of slide(): friction is reduced, springs stick, up to ends(start, steps, n_periods), in Eq. (1)."""
 
     def make(ends, settled=lambda v, start: True):
-        def slide(case, v_0, *, start, n_springs, steps_per_period, n_periods=50, near=None):
+        def slide(case, v_0, *, start, n_springs, steps_per_period, n_periods=50):
             end = ends(start, steps_per_period, n_periods) * UNIT
             free = v_0 > end
             return SimpleNamespace(
@@ -31,10 +31,15 @@ def world(monkeypatch):
             )  # fmt: skip
 
         monkeypatch.setattr(measured_velocity, "slide", slide)
-        end = SimpleNamespace(to_begin_from=None)
-        monkeypatch.setattr(
-            measured_velocity, "slide_without_bound", lambda *args, **knobs: (slide(*args, **knobs), end)
-        )
+
+        def runs(case, velocities, knobs, near):
+            for v_0 in velocities:
+                run = slide(case, v_0, start=knobs.start, n_springs=knobs.n_springs, steps_per_period=knobs.steps)
+                run.to_begin_from = None
+                yield run
+
+        monkeypatch.setattr(measured_velocity, "runs", runs)
+        monkeypatch.setattr(measured_velocity, "finish", lambda end: end)
 
     return make
 

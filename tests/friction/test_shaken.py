@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.friction.cof_curve import friction_without_bound
 from mdr.friction.shaken import band_of_pull
-from mdr.march.body import Y
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.stepper import Stepper
+from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.stepper import Stepper
 
 OMEGA, MU_0, DEPTH = 300.0, 0.4, 20e-6
 RUBBER = mdr.Elastic(E=3e6, nu=0.5)

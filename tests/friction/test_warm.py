@@ -9,12 +9,13 @@ import mdr
 from mdr.__main__ import main
 from mdr.closed_forms import shaken_spring
 from mdr.friction import warm
-from mdr.march import loop, orbit_loop
+from mdr.march.dynamics import loop
+from mdr.march.periodic import anderson
 
 
 def all_compiled():
     """Compiled variants of the functions that runs enter by."""
-    entries = loop.march, loop.look, orbit_loop.search, shaken_spring.all_springs
+    entries = loop.march, loop.look, anderson.search, shaken_spring.all_springs
     return {one.__name__: len(one.signatures) for one in entries}
 
 

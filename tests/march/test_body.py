@@ -10,9 +10,9 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import mdr
-from mdr.march.body import body_of, harmonics_of, light_harmonics_of, pushed
-from mdr.march.loop import march, next_place
-from mdr.march.march import Resolution, at_hand
+from mdr.march.dynamics.body import body_of, harmonics_of, light_harmonics_of, pushed
+from mdr.march.dynamics.loop import march, next_place
+from mdr.march.periodic.steady import Resolution, at_hand
 from mdr.spring.law import law_of
 from mdr.spring.times import tools_for
 

@@ -11,10 +11,10 @@ from numpy.testing import assert_allclose
 from random_records import case_in_units
 
 import mdr
-from mdr.march import loop
-from mdr.march.body import RATE, Y
-from mdr.march.dimensionless import ScaledContact, fast_ratio
-from mdr.march.stepper import Stepper
+from mdr.march.dynamics import loop
+from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.dimensionless import ScaledContact, fast_ratio
+from mdr.march.dynamics.stepper import Stepper
 from mdr.spring.times import tools_for
 
 STEPS = 256

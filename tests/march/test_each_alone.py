@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.march.each_alone import search_alone
-from mdr.march.march import Resolution, at_hand
-from mdr.march.stepper import Stepper
+from mdr.march.dynamics.stepper import Stepper
+from mdr.march.periodic.each_alone import search_alone
+from mdr.march.periodic.steady import Resolution, at_hand
 
 OMEGA, MU_0, DEPTH = 300.0, 0.4, 20e-6
 

@@ -10,8 +10,8 @@ from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march import orbit_loop, periodic_orbit
-from mdr.march.march import MOST_ACCURATE, Resolution, march
+from mdr.march.periodic import anderson, fixed_point
+from mdr.march.periodic.steady import MOST_ACCURATE, Resolution, steady
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -24,16 +24,16 @@ def itself(x):
 
 def find(step, x):
     """The fixed point by the march's own method, on a map of which the march knows nothing."""
-    how = periodic_orbit.Options()
+    how = fixed_point.Options()
     at = how.by_anderson(x)
     for _ in range(how.most):
         at.start[:] = at.x
         image = step(at.x.copy())
-        if orbit_loop.combine(at, image, np.ones_like(image)):
+        if anderson.combine(at, image, np.ones_like(image)):
             break
-    change = at.changes[orbit_loop.BEST]
-    near = periodic_orbit.Iterate(at.best, change) if math.isfinite(change) else None
-    return periodic_orbit.find(step, near, itself, lambda: PUSHES, how)
+    change = at.changes[anderson.BEST]
+    near = fixed_point.Iterate(at.best, change) if math.isfinite(change) else None
+    return fixed_point.find(step, near, itself, lambda: PUSHES, how)
 
 
 def linear(slow, fast=0.01):
@@ -129,8 +129,8 @@ BODIES = {
 
 def without_search(patch):
     """No periodic state is found, as none is looked for."""
-    for name in ("march.search", "march.search_from_full_slip", "waiting.search"):
-        patch.setattr(f"mdr.march.{name}", lambda *args: None)
+    for name in ("steady.search", "steady.search_from_full_slip", "waiting.search"):
+        patch.setattr(f"mdr.march.periodic.{name}", lambda *args: None)
 
 
 def body(shape, depth_ratio, T, k, omega_0, zeta, share):
@@ -143,15 +143,15 @@ def body(shape, depth_ratio, T, k, omega_0, zeta, share):
 def test_the_solved_state_is_the_awaited_one(name, monkeypatch):
     case, v_0 = body(*BODIES[name])
     knobs = Resolution(n_springs=24, steps=128, start="full_slip", lump=True)
-    solved = march(case, v_0, knobs)
+    solved = steady(case, v_0, knobs)
     without_search(monkeypatch)
-    awaited = march(case, v_0, knobs)
+    awaited = steady(case, v_0, knobs)
     assert solved.settling.solved
     assert solved.settling.settled
     assert not awaited.settling.solved
     assert abs(solved.cof - awaited.cof) <= solved.settling.spread + awaited.settling.spread
     # and once more, until nothing moves
-    more = march(case, v_0, knobs, 20 * awaited.n_periods)
+    more = steady(case, v_0, knobs, 20 * awaited.n_periods)
     assert abs(solved.cof - more.settling.mean) <= solved.settling.spread + max(more.settling.spread, 1e-12)
 
 
@@ -160,19 +160,19 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
     knobs = Resolution(n_springs=32, steps=128, start="full_slip", lump=True)
     with monkeypatch.context() as patch:
         without_search(patch)
-        untouched = march(case, v_0, knobs)
-    search = periodic_orbit.find
-    monkeypatch.setattr(periodic_orbit, "find", lambda *args: search(*args) and None)
-    failed = march(case, v_0, knobs)
+        untouched = steady(case, v_0, knobs)
+    search = fixed_point.find
+    monkeypatch.setattr(fixed_point, "find", lambda *args: search(*args) and None)
+    failed = steady(case, v_0, knobs)
     assert failed.cof == untouched.cof
     assert failed.n_periods == untouched.n_periods
 
 
 def test_a_start_from_rest_goes_its_way_before_the_periodic_state_is_looked_for():
     case, v_0 = body(*BODIES["punch, elastic"])
-    run = march(case, v_0, Resolution(32, 128, "rest", True))
-    assert run.n_periods >= max(run.end.on_the_way, 32)
-    full = march(case, v_0, Resolution(32, 128, "full_slip", True))
+    run = steady(case, v_0, Resolution(32, 128, "rest", True))
+    assert run.n_periods >= max(run.on_the_way, 32)
+    full = steady(case, v_0, Resolution(32, 128, "full_slip", True))
     assert abs(run.cof - full.cof) <= run.settling.spread + full.settling.spread
 
 
@@ -191,11 +191,11 @@ def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
             rng.uniform(0.1, 0.9),
         )
         knobs = Resolution(n_springs=64, steps=256, start="full_slip", lump=True, accuracy=MOST_ACCURATE)
-        solved = march(case, v_0, knobs)
+        solved = steady(case, v_0, knobs)
         with monkeypatch.context() as patch:
             without_search(patch)
-            patch.setattr("mdr.march.waiting.TOLERANCE", max(solved.settling.spread, 1e-13))
-            awaited = march(case, v_0, knobs)
+            patch.setattr("mdr.march.periodic.waiting.TOLERANCE", max(solved.settling.spread, 1e-13))
+            awaited = steady(case, v_0, knobs)
         shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
     assert np.median(shares) <= 0.2
 

@@ -8,9 +8,9 @@ from conftest import contact, unit_of_velocity
 
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.march import refinement
-from mdr.march.march import Resolution, march
-from mdr.march.steady_state import TOLERANCE
+from mdr.march.dynamics.stepper import TOLERANCE
+from mdr.march.periodic.steady import Resolution, steady
+from mdr.march.result import refinement
 
 BODY = contact("paraboloid", 3.0, 0.0, 2.0, 1.6, 0.1)
 FAST = contact("paraboloid", 3.0, 0.0, 2.0, 6.4, 0.1)  # omega_1/omega is 7.8
@@ -58,7 +58,7 @@ def test_what_is_given_is_kept_and_its_error_within_its_bound(case):
         run = mdr.slide(case, v_0, n_springs=n_springs, steps_per_period=steps)
         assert (run.n_springs, run.steps_per_period) == (n_springs, steps)
         assert abs(run.cof - finest.cof) <= run.cof_error + finest.cof_error
-        own = march(case, v_0, Resolution(n_springs, steps, "full_slip", lump=True))
+        own = steady(case, v_0, Resolution(n_springs, steps, "full_slip", lump=True))
         # both searches end within TOLERANCE of the periodic state
         assert run.cof == pytest.approx(case.mu_0 * own.cof, abs=2 * TOLERANCE * case.mu_0)
 

@@ -8,9 +8,10 @@ from conftest import contact, unit_of_velocity
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march.energy import OF_MEMORY, does_not_close, energy_balance
-from mdr.march.march import Resolution, march
-from mdr.march.steady_state import MIN_PERIODS, UNKNOWN, assess, smooth_mean
+from mdr.march.dynamics.energy import OF_MEMORY, does_not_close, energy_balance
+from mdr.march.dynamics.stepper import UNKNOWN
+from mdr.march.periodic.settling import MIN_PERIODS, assess, smooth_mean
+from mdr.march.periodic.steady import Resolution, looked_at, steady
 from mdr.spring.energies import FRICTION_LOSS
 
 TOLERANCE = 1e-6
@@ -189,7 +190,7 @@ def test_a_run_whose_energies_do_not_close_has_not_settled():
 
 def test_the_account_of_a_period_is_held_to_its_steps():
     case = contact("cone", 3.0, 0.0)
-    end = march(case, 0.4 * case.unit_velocity, Resolution(64, 256, "full_slip", lump=True))
+    end = looked_at(steady(case, 0.4 * case.unit_velocity, Resolution(64, 256, "full_slip", lump=True)))
 
     def missing(error):
         return does_not_close(energy_balance(end.end.stepper, end.account), end.end.stepper, end.account, error)

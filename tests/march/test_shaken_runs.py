@@ -10,8 +10,9 @@ from numpy.testing import assert_allclose
 from tables import turning
 
 import mdr
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.slide import slide_without_bound
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.periodic.steady import Resolution
+from mdr.march.result.slide import runs
 
 OMEGA, MU_0, NU, DEPTH = 300.0, 0.4, 0.4, 20e-6
 KAPPA = (2 - NU) / (2 * (1 - NU))
@@ -142,9 +143,9 @@ def test_the_scheme_is_of_second_order(T, alpha, chi, body):
 
     def of(steps, springs, phi, shift):
         case = contact("paraboloid", alpha, T, chi, phi, body=body)
-        knobs = {"n_springs": springs, "steps_per_period": steps, "start": "full_slip"}
+        knobs = Resolution(springs, steps, "full_slip", lump=True, bounded=False)
         velocities = (np.array([0.17, 0.37, 0.55]) + shift) * mdr.critical_velocity(case)
-        return np.array([slide_without_bound(case, v_0, **knobs)[0].cof for v_0 in velocities])
+        return np.array([case.mu_0 * next(runs(case, [v_0], knobs)).cof for v_0 in velocities])
 
     some = [(phi, 0.0) for phi in (0.3, 0.7, 1.9, 2.5)]
     assert order(128 * 2 ** np.arange(4), some, lambda *one: of(one[2], 48, *one[:2]), 4096) > 1.95

@@ -12,7 +12,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import State
-from mdr.march import full_slip, march
+from mdr.march.dynamics import full_slip
+from mdr.march.periodic import steady
 
 BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
 MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
@@ -411,14 +412,14 @@ def test_a_state_that_may_be_far_from_the_periodic_one_is_not_settled_and_says_s
 
 def test_a_march_that_contradicts_the_static_limit_has_not_settled(monkeypatch):
     case = CONTACTS["body elastic"]
-    search = march.search_from_full_slip
+    search = steady.search_from_full_slip
 
     def wrong(stepper):
         orbit = search(stepper)
         return replace(orbit, settling=replace(orbit.settling, mean=-0.004))
 
-    monkeypatch.setattr(march, "search_from_full_slip", wrong)
-    monkeypatch.setattr(march, "search", lambda *args, **knobs: None)
+    monkeypatch.setattr(steady, "search_from_full_slip", wrong)
+    monkeypatch.setattr(steady, "search", lambda *args, **knobs: None)
     run = run_at(case, 0.43, **COARSE)
     assert not run.settled
     assert "below the static limit" in run.why
@@ -460,7 +461,7 @@ def test_a_time_limit_ends_a_run_unsettled_with_the_reason():
 
 def test_a_run_without_time_for_its_companions_states_no_bound(monkeypatch):
     case = contact("cone", k_ratio=1.0, c_ratio=0.3)
-    monkeypatch.setattr("mdr.march.refinement.time_is_over", lambda: True)
+    monkeypatch.setattr("mdr.march.result.refinement.time_is_over", lambda: True)
     run = mdr.slide(case, 0.5 * mdr.critical_velocity(case))
     assert not run.settled
     assert "which bound cof_error" in run.why

@@ -9,8 +9,8 @@ from numba.core.runtime import _nrt_python, rtsys
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march.march import Resolution, at_hand
-from mdr.march.stepper import Stepper, least_between
+from mdr.march.dynamics.stepper import Stepper, least_between
+from mdr.march.periodic.steady import Resolution, at_hand
 
 PHASE = 2 * np.pi * np.arange(64) / 64
 

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_array_equal
 from tables import theorems, velocities
 
-from mdr.march.theorems import disordered, outside
+from mdr.march.periodic.theorems import disordered, outside
 
 
 def test_a_cof_lies_between_the_static_limit_and_mu_0():

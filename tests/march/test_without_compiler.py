@@ -12,7 +12,7 @@ import pytest
 import small_runs
 from numpy.testing import assert_allclose
 
-from mdr.march.loop import SHORTEST
+from mdr.march.dynamics.loop import SHORTEST
 
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")

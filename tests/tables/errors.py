@@ -14,7 +14,7 @@ from conftest import SHAPES, contact
 from tables.beside import Row, row, told
 
 import mdr
-from mdr.march.march import Resolution, march
+from mdr.march.periodic.steady import Resolution, steady
 from mdr.tools.progress import progress
 
 FINER = 16, 4  # times the steps, times the springs
@@ -66,7 +66,7 @@ def refined(name: str, case: mdr.SlidingContact, v_0: float) -> Row:
     times, springs = FINER[0], FINER[1] * run.n_springs
     while times > 4 and times * run.steps_per_period * springs > MOST:
         times //= 2
-    fine = march(case, v_0, Resolution(springs, times * run.steps_per_period, "full_slip", lump=True))
+    fine = steady(case, v_0, Resolution(springs, times * run.steps_per_period, "full_slip", lump=True))
     return row(name, run, fine.cof, fine.settling.spread, fine.settling.settled)
 
 

@@ -23,10 +23,10 @@ import numpy as np
 from conftest import SHAPES
 
 import mdr
-from mdr.march.march import MAX_PERIODS, Resolution, at_hand
-from mdr.march.orbit_search import search_from_full_slip
-from mdr.march.stepper import Stepper
-from mdr.march.waiting import Waiting
+from mdr.march.dynamics.stepper import Stepper
+from mdr.march.periodic.search import search_from_full_slip
+from mdr.march.periodic.steady import MAX_PERIODS, Resolution, at_hand
+from mdr.march.periodic.waiting import Waiting
 from mdr.tools.progress import progress
 
 OMEGA, U_Z0, MU_0 = 300.0, 2e-5, 0.5

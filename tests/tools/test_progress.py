@@ -80,7 +80,7 @@ def test_a_long_march_says_how_many_periods_are_done(capsys, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", -1.0)
     motion = mdr.NormalOscillation(u_z0=6e-6, du_z=2e-6, omega=300.0)
     case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.5, motion)
-    monkeypatch.setattr("mdr.march.stepper.AT_ONCE", 4 * 64)  # four periods
+    monkeypatch.setattr("mdr.march.dynamics.stepper.AT_ONCE", 4 * 64)  # four periods
     mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64, n_periods=12)
     assert "slide: 4 of 12 periods, about " in capsys.readouterr().err
     mdr.slide(case, 1e-4, n_springs=32, steps_per_period=64)

@@ -7,7 +7,7 @@ import pytest
 
 import mdr
 from mdr import laws
-from mdr.march.steady_state import Settling
+from mdr.march.periodic.settling import Settling
 from validation import (
     coupling_law,
     end_of_stick,

@@ -15,30 +15,28 @@ Each run begins in the periodic state of one before it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.march.body import RESOLVED
-from mdr.march.dimensionless import fast_ratio
-from mdr.march.march import (
+from mdr.march.dynamics.body import RESOLVED
+from mdr.march.dynamics.dimensionless import fast_ratio
+from mdr.march.periodic.search import FULL
+from mdr.march.periodic.steady import (
     BUDGET,
     MOST_BESIDE,
     Converged,
-    Observed,
     Resolution,
+    accuracy_of,
     at_hand,
     check,
     looked_at,
     steady,
     too_coarse,
 )
-from mdr.march.orbit_search import FULL
-from mdr.march.run import SlidingRun, finish
-from mdr.march.steady_state import TOLERANCE
-from mdr.march.theorems import outside
+from mdr.tools.companions import Companion, bound
 from mdr.tools.progress import Ticker, time_is_over
 
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
@@ -149,6 +147,21 @@ def companions(resolution: Resolution) -> Companions:
     return Companions(*(resolution.of_size(k * n_t // 8, m * n // 8) for k, m in shares))
 
 
+def resolution_of(
+    case: SlidingContact,
+    n_springs: int | None,
+    steps_per_period: int | None,
+    accuracy: float = BUDGET,
+    start: str = "full_slip",
+    lump: bool = True,
+    record: int = 0,
+) -> Resolution:
+    """What a run begins with: the springs and steps that are asked for, or those that are chosen and may be refined."""
+    n, n_t = n_springs or default_springs(case), steps_per_period or default_steps(case)
+    check_size(n, n_t, record)
+    return Resolution(n, n_t, start, lump, record, accuracy_of(accuracy), (n_springs is None, steps_per_period is None))
+
+
 def check_size(n_springs: int, steps: int, record: int) -> None:
     """Refuse more springs, steps or periods of a record than memory holds."""
     if max(n_springs, steps) > MOST or n_springs * steps * record > MOST_KEPT:
@@ -158,111 +171,93 @@ def check_size(n_springs: int, steps: int, record: int) -> None:
         )
 
 
-@dataclass(frozen=True)
-class Bounded:
-    """A main run, the bound on the numerical error of its COF, over mu_0."""
-
-    main: Converged
-    error: float
-
-    def looked_at(self, record: int) -> Observed:
-        """The run after a close look, with so many periods kept; one beyond a theorem by more than its error is not
-        called settled.
-        """
-        check_size(self.main.resolution.n_springs, self.main.resolution.steps, record)
-        march = looked_at(replace(self.main, resolution=self.main.resolution._replace(record=record)))
-        why = outside(march.cof, -1.0, self.error + march.settling.spread + TOLERANCE)
-        return march.contradicted(why) if march.settling.settled and why else march
-
-    def finished(self, record: int) -> SlidingRun:
-        """The run in SI, with so many periods kept."""
-        return finish(self.looked_at(record), self.error)
-
-
-def within(
-    case: SlidingContact, v_0: float, resolution: Resolution, free: tuple[bool, bool], near: Converged | None = None
-) -> tuple[SlidingRun, Converged]:
-    """A run with its companions, and its end; what was left free, springs and steps, is refined until the error is
-    within resolution.accuracy. near: the end of a run at a velocity close by.
+def within(case: SlidingContact, v_0: float, resolution: Resolution, near: Converged | None = None) -> Converged:
+    """The end of a run with its companions; springs and steps that are free are refined until the error is within
+    resolution.accuracy. near: the end of a run at a velocity close by.
     """
     check(case, v_0)
-    runs, best, record = _Runs(case, v_0, near), None, resolution.record
-    resolution = _that_touch(case, resolution._replace(record=0), free[1])
+    record = resolution.record
+    end = _refined(_Runs(case, v_0, near), _that_touch(case, resolution._replace(record=0)))
+    check_size(end.resolution.n_springs, end.resolution.steps, record)
+    return replace(end, resolution=end.resolution._replace(record=record))
+
+
+def _refined(runs: _Runs, resolution: Resolution) -> Converged:
+    """The best run that is settled, or the first."""
+    best: Converged | None = None
     while True:
-        main = runs.main(resolution, None if best is None or case.pull.is_rigid else MOST_BESIDE)
+        rigid = runs.case.pull.is_rigid
+        main = runs.main(resolution, None if best is None or rigid else MOST_BESIDE)
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
-            best = best or Bounded(main, 0.0)
-            return best.finished(record), best.main
+            return best or replace(main, error=0.0)
         share = resolution.accuracy / 2
-        if main.slips_fully and (main.off_load <= share or not any(free)) and (march := _clear_of_stick(runs, main)):
-            return Bounded(main, 0.0).finished(record) if record else finish(march), main
+        may_be_clear = main.slips_fully and (main.off_load <= share or not any(resolution.free))
+        if may_be_clear and (clear := _clear_of_stick(runs, main)) is not None:
+            return clear
         missed = _missed_by(runs, main)
         error = missed.bound + _of_unresolved(runs, main)
         if time_is_over():
-            if best is None:
-                why = "the time limit is over before the runs beside it, which bound cof_error, were done"
-                unknown = replace(main.settling, settled=False, kind="unsettled", why=why)
-                best = Bounded(replace(main, settling=unknown), 0.0)
-            return best.finished(record), best.main
-        best = Bounded(main, error)
+            why = "the time limit is over before the runs beside it, which bound cof_error, were done"
+            return best or replace(main.unsettled(why), error=0.0)
+        best = replace(main, error=error)
         met = error + main.settling.spread + main.left_out <= resolution.accuracy
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
-        finer = resolution if met or awaited or not repeats else _finer(main, missed, free)
+        finer = resolution if met or awaited or not repeats else _finer(main, missed)
         if finer == resolution:
-            return best.finished(record), main
+            return best
         resolution = finer
 
 
-def _finer(main: Converged, missed: Missed, free: tuple[bool, bool]) -> Resolution:
+def _finer(main: Converged, missed: Missed) -> Resolution:
     """Twice the steps or springs, or both, of which too much is missed; the same where that cannot be afforded."""
-    share, of_springs = main.resolution.accuracy / 2, max(missed.of_springs, main.off_load)
-    both = max(missed.of_steps, of_springs) <= share  # the error is that of the other companion
+    free, share = main.resolution.free, main.resolution.accuracy / 2
+    of_steps, of_springs = missed.steps.apart, max(missed.springs.apart, main.off_load)
+    both = max(of_steps, of_springs) <= share  # the error is that of the other companion
     n_springs, steps = main.resolution.n_springs, main.resolution.steps
     if free[0] and (both or of_springs > share):
         n_springs = max(n_springs, min(2 * n_springs, MOST_SPRINGS))
-    if free[1] and (both or missed.of_steps > share):
+    if free[1] and (both or of_steps > share):
         steps = max(steps, min(2 * steps, MOST_STEPS))
     now = main.resolution
-    worse = (n_springs, now.steps) if of_springs > missed.of_steps else (now.n_springs, steps)
+    worse = (n_springs, now.steps) if of_springs > of_steps else (now.n_springs, steps)
     for n, n_t in ((n_springs, steps), worse):
         if n * n_t <= MOST_CHOSEN or not all(free):
             return now._replace(n_springs=n, steps=n_t)
     return now
 
 
-def _that_touch(case: SlidingContact, resolution: Resolution, free: bool) -> Resolution:
+def _that_touch(case: SlidingContact, resolution: Resolution) -> Resolution:
     """The resolution, with more steps where they are free and the contact too brief for those of companions."""
     while not (case.keeps_contact or all(at_hand(case, one)[1].normal.mean > 0 for one in companions(resolution))):
-        if not free or resolution.steps >= MOST_STEPS:
+        if not resolution.free[1] or resolution.steps >= MOST_STEPS:
             raise too_coarse(resolution.steps)
         resolution = resolution._replace(steps=2 * resolution.steps)
     return resolution
 
 
-@dataclass(frozen=True)
-class Missed:
-    """What a run may miss of the COF, over mu_0."""
+class Missed(NamedTuple):
+    """What the companions of a run tell of its COF, over mu_0."""
 
-    of_steps: float
-    of_springs: float
-    least: float  #: both together, by other companions
+    steps: Companion
+    springs: Companion
+    by_chance: tuple[Companion, ...]  #: both together, by other pairs of runs
 
     @property
     def bound(self) -> float:
         """On the error."""
-        return max(self.of_steps + UNEVENLY * self.of_springs, self.least)
+        return bound(self.steps, self.springs, least=self.by_chance)
 
 
 def _missed_by(runs: _Runs, main: Converged) -> Missed:
     """What the companions of a run tell."""
     beside = companions(main.resolution)
     steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
-    least = BY_CHANCE * _missed(main, more)
+    by_chance = [Companion(_apart(main, more), BY_CHANCE)]
     _, less = at_hand(runs.case, beside.less)
     if less.body.light == half.scaled.body.light:  # else a body moves by another scheme there
-        least = max(least, BY_CHANCE * _missed(half, runs.beside(half, beside.less)) / MOST_GAINED)
-    return Missed(_missed(main, steps), _missed(steps, half), least)
+        by_chance += [Companion(_apart(half, runs.beside(half, beside.less)), BY_CHANCE / MOST_GAINED)]
+    return Missed(Companion(_apart(main, steps)), Companion(_apart(steps, half), UNEVENLY), tuple(by_chance))
 
 
 def _of_unresolved(runs: _Runs, main: Converged) -> float:
@@ -281,8 +276,8 @@ def _of_unresolved(runs: _Runs, main: Converged) -> float:
     return missed + UNRESOLVED * abs(main.cof - resolved.cof)
 
 
-def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
-    """A close look at a run that slips, where no finer step would stick either, so that F_x is mu_0 F_z without error.
+def _clear_of_stick(runs: _Runs, main: Converged) -> Converged | None:
+    """A run that slips, looked at closely, where no finer step would stick either: F_x is mu_0 F_z without error.
 
     It and its companion of half the size must slip throughout, by more than a tenth of v_0 and ten times what doubling
     the steps changed. And this change must be small beside v_0 less the slip velocity, which is v_c, so that it
@@ -294,10 +289,12 @@ def _clear_of_stick(runs: _Runs, main: Converged) -> Observed | None:
         return None
     march, half = looked_at(main), looked_at(runs.half(main))
     least, moved = min(march.least_slip, half.least_slip), abs(march.least_slip - half.least_slip)
-    return march if least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12 else None
+    if not (least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12):
+        return None
+    return replace(main, error=0.0, orbit=replace(main.orbit, seen=march.account))
 
 
-def _missed(main: Converged, companion: Converged) -> float:
+def _apart(main: Converged, companion: Converged) -> float:
     """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
     apart = float(np.hypot(main.cof - companion.cof, main.settling.across - companion.settling.across))
     if apart <= FULL:

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.energy import EnergyBalance, does_not_close, energy_balance
-from mdr.march.march import Observed, too_coarse
-from mdr.march.steady_state import LATE, MIN_PERIODS, TOLERANCE, UNKNOWN
-from mdr.march.stepper import PeriodRecord
+from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_balance
+from mdr.march.dynamics.stepper import TOLERANCE, UNKNOWN, PeriodRecord
+from mdr.march.periodic.settling import LATE, MIN_PERIODS
+from mdr.march.periodic.steady import Converged, Observed, looked_at, too_coarse
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import EXACT, Array, beyond
@@ -178,19 +178,22 @@ def _turned(values: Any) -> Any:
     return None if values is None else 0.0 - values  # no -0.0
 
 
-def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
-    """From scaled form to SI. error: bound on that of the COF, over mu_0."""
-    balance = energy_balance(march.end.stepper, march.account)
-    open_account = does_not_close(balance, march.end.stepper, march.account, error + march.settling.spread)
+def finish(end: Converged) -> SlidingRun:
+    """The run of a march, after a close look at its last periods, in SI."""
+    march, error, why = looked_at(end), end.error or 0.0, ""
+    if end.error is None:
+        why = "no companion run: cof_error holds settling only"
+    balance = energy_balance(end.stepper, march.account)
+    open_account = does_not_close(balance, end.stepper, march.account, error + march.settling.spread)
     if march.settling.settled and open_account:
         march = march.contradicted(open_account)
-    case, scaled, seen, settling = march.end.case, march.end.scaled, march.account.seen, march.settling
-    mu_0, sums = case.mu_0, seen.sums
+    case, scaled, sums, settling = end.case, end.scaled, march.account.seen.sums, march.settling
+    mu_0 = case.mu_0
     force_z = scaled.units.stiffness_z * scaled.units.length_z
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
-    error += march.end.left_out
+    error += end.left_out
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
     sticks = march.stick_share
@@ -210,13 +213,13 @@ def finish(march: Observed, error: float = 0.0, why: str = "") -> SlidingRun:
         mean_F_y=mu_0 * across * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
-        v_0=march.end.v_0,
+        v_0=end.v_0,
         mu_0=mu_0,
         omega=scaled.units.omega,
-        n_springs=march.end.resolution.n_springs,
+        n_springs=end.resolution.n_springs,
         steps_per_period=scaled.drive.steps,
         n_periods=march.n_periods,
-        **(_recorded(march) if march.end.resolution.record else {}),
+        **(_recorded(march) if end.resolution.record else {}),
     )
 
 

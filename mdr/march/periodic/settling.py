@@ -20,9 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-TOLERANCE = 1e-6  #: of cof/mu_0 between windows of a settled run
+from mdr.march.dynamics.stepper import UNKNOWN
+
 MIN_PERIODS = 8  #: fewer give no three windows
-UNKNOWN = 2.0  #: spread of a run too short to tell: a COF lies between -mu_0 and mu_0
 LATE = "springs have not yet slipped as far as the pull went"  #: why a state that hardly changes is not periodic
 
 
@@ -34,7 +34,7 @@ class Settling:
     spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell
     settled: bool  #: whether it is an answer: the spread below its tolerance, and nothing known to move
     kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
-    gain: float | None = None  #: of a periodic state that was solved for (periodic_orbit.py); None of an awaited motion
+    gain: float | None = None  #: of a periodic state that was solved for (fixed_point.py); None of an awaited motion
     why: str = ""  #: what still moves where the windows agree
     contradicts: bool = False  #: whether the mean contradicts a theorem (theorems.py)
     across: float = 0.0  #: the mean of the force across the pull

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.body import N_BODY, RATE, Body, Y, harmonics_of, light_harmonics_of
+from mdr.march.dynamics.body import N_BODY, RATE, Body, Y, harmonics_of, light_harmonics_of
 from mdr.spring.settle import NormalPeriod
 from mdr.tools.arrays import Array
 

@@ -12,16 +12,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march import loop, orbit_loop
-from mdr.march.body import N_BODY, RATE, Body, Y
-from mdr.march.dimensionless import ScaledContact, Way
-from mdr.march.steady_state import TOLERANCE, UNKNOWN
+from mdr.march.dynamics import loop
+from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
+from mdr.march.dynamics.dimensionless import ScaledContact, Way
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
+TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
+UNKNOWN = 2.0  #: error of a cof/mu_0 of which nothing is known: it lies between -1 and 1
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
 LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
@@ -88,7 +89,7 @@ class Stepper:
     def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
         in_plane, self.motion = scaled.ways == 2, scaled.drive.with_pull(v)
-        self._parts = (
+        self.parts = (
             scaled.body if in_plane or not scaled.body.rigid else None,
             scaled.body_across if in_plane else None,
             scaled.springs,
@@ -133,7 +134,7 @@ class Stepper:
         parts, most = [Periods(*np.empty((3, 0)))], max(1, AT_ONCE // self.scaled.drive.steps)
         state = state.copy()
         for start in range(0, n_periods, most):
-            parts.append(self._periods_of(self._marched(state, min(most, n_periods - start))))
+            parts.append(self.periods_of(self._marched(state, min(most, n_periods - start))))
             if time_is_over():
                 break
         return state, joined(parts)
@@ -154,15 +155,16 @@ class Stepper:
         """A whole number of periods in place, counted."""
         trace = self.scaled.trace(n_periods)
         n_steps = n_periods * self.scaled.drive.steps
-        self.solved = loop.march(state.e, state.s, state.body, *self._parts, n_steps, trace)
-        self._count(n_periods)
+        self.solved = loop.march(state.e, state.s, state.body, *self.parts, n_steps, trace)
+        self.count(n_periods)
         return trace
 
-    def _count(self, n_periods: int) -> None:
+    def count(self, n_periods: int) -> None:
+        """Add periods to those that were marched."""
         self.n_periods += n_periods
         self.ticker.tick(n_periods)
 
-    def _periods_of(self, trace: loop.Trace) -> Periods:
+    def periods_of(self, trace: loop.Trace) -> Periods:
         """COFs and swing of each whole period."""
         area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
         cof = area.sum(axis=1) / (2 * np.pi * self.mean_F_z)
@@ -181,7 +183,7 @@ class Stepper:
         seen = loop.Seen(nodes, sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
-        _, _, springs, _, _, motion, law, tools = self._parts
+        _, _, springs, _, _, motion, law, tools = self.parts
         sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
         loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
         if scaled.drive.across is None:
@@ -190,7 +192,7 @@ class Stepper:
             sums[SHAKE_WORK] += self._work_of(scaled.drive.across, trace.area.imag, trace.moment.imag)
         stored = self.stored_energy(before), self.stored_energy(state)
         y, rate = np.r_[start[Y], trace.y], np.r_[start[RATE], trace.rate]
-        return state, PeriodRecord(seen, y, rate, stored, self._periods_of(trace), self.solved)
+        return state, PeriodRecord(seen, y, rate, stored, self.periods_of(trace), self.solved)
 
     def _work_of(self, way: Way, area: Array, moment: Array) -> float:
         """Work of a shake, which goes on parabolas."""
@@ -200,20 +202,8 @@ class Stepper:
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""
-        orbit_loop.within_friction(state.e, state.s)
+        loop.within_friction(state.e, state.s)
         return state
-
-    def search(self, at: orbit_loop.Search, like: MarchState, roots: Array, n_periods: int) -> tuple[bool, Periods]:
-        """Go on with a search for its periodic state, for at most so many periods; whether it has come to its end, and
-        the last period, if it was the one that moved least. like: a state of this march.
-        """
-        n_before, trace = int(at.counts[orbit_loop.PERIODS]), self.scaled.trace()
-        image = like.copy()
-        ended = orbit_loop.search(
-            at, image.x, image.e, image.s, image.body, like.s, roots, *self._parts, n_periods, trace
-        )
-        self._count(int(at.counts[orbit_loop.PERIODS]) - n_before)
-        return bool(ended), self._periods_of(trace)
 
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""

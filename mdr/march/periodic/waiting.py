@@ -1,7 +1,7 @@
 """Waiting for the steady state: march on until the COF settles and the body has outlasted its beat.
 
 The last resort, where no periodic state was solved for. Now and then one is searched for from where the march has come
-to. Windows of periods decide on the COF (steady_state.py); beside a resonance the swing of the body changes long before
+to. Windows of periods decide on the COF (settling.py); beside a resonance the swing of the body changes long before
 the COF does, so that it is asked too.
 """
 
@@ -12,11 +12,11 @@ from functools import cached_property
 
 import numpy as np
 
-from mdr.march.body import Y
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.orbit_search import Orbit, search
-from mdr.march.steady_state import LATE, MIN_PERIODS, TOLERANCE, UNKNOWN, Settling, assess, smooth_mean
-from mdr.march.stepper import MarchState, Periods, Stepper, joined
+from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.stepper import TOLERANCE, UNKNOWN, MarchState, Periods, Stepper, joined
+from mdr.march.periodic.search import Orbit, search
+from mdr.march.periodic.settling import LATE, MIN_PERIODS, Settling, assess, smooth_mean
 from mdr.tools.progress import time_is_over
 
 BEATS = 2.0  #: of an undamped body that a settled run has seen
@@ -56,6 +56,11 @@ class Waiting:
     def append(self, periods: Periods) -> None:
         """Add further periods to those that the judgement rests on."""
         self.periods = joined([self.periods, periods])
+
+    def after(self, n_periods: int) -> Orbit:
+        """What so many periods lead to."""
+        self.advance(n_periods)
+        return self._ended(self.assess() if self.n else Settling(0.0, UNKNOWN, False, "unsettled"))
 
     def wait(self, most: int) -> Orbit:
         """March until the windows agree, but not before every spring has been pulled as far as it has to go."""

@@ -1,9 +1,8 @@
-"""One march of a contact: prepared, brought to its steady state (`steady`), looked at closely (`looked_at`).
+"""One march of a contact: brought to its steady state (`steady`), and looked at closely (`looked_at`).
 
-From full slip the periodic state of a body is searched for (orbit_search.py). Where none is found, and from rest, the
-march goes on until it settles (waiting.py). Under a rigid pull it needs a period or two. This gives the COF. A close
-look at the last periods tells modes, forces and energies. If the core was lumped and turns out not to move as one, the
-march is done again with every spring for itself. A COF that contradicts a theorem (theorems.py) is not called settled.
+From full slip the periodic state of a body is searched for (search.py). Where none is found, and from rest, the march
+goes on until it settles (waiting.py). Under a rigid pull it needs a period or two. This gives the COF. A close look at
+the last periods tells modes, forces and energies. A COF that contradicts a theorem (theorems.py) is not called settled.
 """
 
 from __future__ import annotations
@@ -15,9 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.each_alone import search_alone
-from mdr.march.orbit_search import (
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, Periods, Stepper
+from mdr.march.periodic.each_alone import search_alone
+from mdr.march.periodic.search import (
     FULL,
     Orbit,
     at_other_resolution,
@@ -25,11 +25,10 @@ from mdr.march.orbit_search import (
     search,
     search_from_full_slip,
 )
-from mdr.march.periodic_orbit import SlowMotions
-from mdr.march.steady_state import TOLERANCE, UNKNOWN, Settling
-from mdr.march.stepper import MarchState, PeriodRecord, Periods, Stepper
-from mdr.march.theorems import outside
-from mdr.march.waiting import Waiting, way_from_rest
+from mdr.march.periodic.settling import Settling
+from mdr.march.periodic.solver import OutOfTime
+from mdr.march.periodic.theorems import outside
+from mdr.march.periodic.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import FieldError, finite
@@ -53,7 +52,7 @@ def accuracy_of(value: Any) -> float:
 
 
 class Resolution(NamedTuple):
-    """What a march may choose: resolution, start, and what to keep."""
+    """What a march may choose: numbers of springs and steps, its start, what to keep, and how accurate it has to be."""
 
     n_springs: int
     steps: int
@@ -61,6 +60,8 @@ class Resolution(NamedTuple):
     lump: bool
     record: int = 0
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
+    free: tuple[bool, bool] = (False, False)  #: whether springs and steps are doubled until the error is within it
+    bounded: bool = True  #: whether companions bound the error
 
     def of_size(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
         """The resolution of a companion with other steps or springs, that keeps nothing."""
@@ -78,18 +79,26 @@ class Converged:
     resolution: Resolution
     springs: SpringArray
     stepper: Stepper
-    settling: Settling
-    state: MarchState  # at the end
-    n_periods: int  # marched so far, without one that was looked at closely
-    on_the_way: float  # periods that a run from rest takes to stretch springs and system
-    waited: Waiting | None  # of a march of so many periods
-    seen: PeriodRecord | None  # a close look at the last period, where one was taken
-    motions: SlowMotions | None  # slow ones about a periodic state
+    orbit: Orbit  #: state and COF at the end
+    n_periods: int  #: marched so far, without one that was looked at closely
+    waited: Waiting | None  #: how it settled, where it was not solved for
+    awaits: bool  #: whether what it still marches counts for that
+    error: float | None = None  #: bound on that of the COF, over mu_0; None where no companion tells
 
     @property
     def scaled(self) -> ScaledContact:
         """The contact in scaled form."""
         return self.stepper.scaled
+
+    @property
+    def settling(self) -> Settling:
+        """Whether it has settled, and at which COF."""
+        return self.orbit.settling
+
+    @property
+    def on_the_way(self) -> float:
+        """Periods that a run from rest takes to stretch springs and system."""
+        return 0.0 if self.waited is None else self.waited.on_the_way
 
     @property
     def cof(self) -> float:
@@ -126,6 +135,11 @@ class Converged:
     def slips_fully(self) -> bool:
         """Whether nothing is missing in the COF but rounding."""
         return abs(1 - self.cof) < FULL
+
+    def unsettled(self, why: str) -> Converged:
+        """The same, not settled."""
+        settling = replace(self.settling, settled=False, kind="unsettled", why=why)
+        return replace(self, orbit=replace(self.orbit, settling=settling))
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,71 +215,53 @@ def steady(
     n_periods: int | None = None,
     near: Converged | None = None,
     most: int | None = None,
-    gain: float | None = None,
 ) -> Converged:
-    """Observed until settled, or exactly n_periods.
+    """Marched until settled, or for exactly n_periods.
 
     near: a march of the case at other resolution or velocity, whose periodic state is a good one to search from. most:
-    periods after which a march that does not settle ends; None is the most of any. gain: of that state, where it need
-    not be measured.
+    periods after which a march that does not settle ends; None is the most of any.
     """
     springs, scaled = at_hand(case, resolution)
     if not scaled.normal.mean > 0:
         raise too_coarse(resolution.steps)
     total = None if n_periods is None else n_periods + max(1, resolution.record)  # with those looked at
     stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), total)
-    from_full_slip = resolution.start == "full_slip"
-    orbit = waiting = None
-    if n_periods is None:
-        orbit = _searched(stepper, from_full_slip, near, gain)
+    from_full_slip, waiting = resolution.start == "full_slip", None
+    try:
+        orbit = _searched(stepper, resolution, near) if n_periods is None else None
+    except OutOfTime:
+        orbit = None
     if orbit is None:
         start = stepper.full_slip() if from_full_slip else stepper.rest()
         waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
         if n_periods is None:
             orbit = waiting.wait(most or MAX_PERIODS["rigid" if scaled.body.rigid else "spring"])
         else:
-            waiting.advance(n_periods)
-    if orbit is not None:
-        state, settling, periods = orbit.state, orbit.settling, orbit.period
-    else:
-        assert waiting is not None
-        settling = waiting.assess() if waiting.n else Settling(0.0, UNKNOWN, False, "unsettled")
-        state, periods = waiting.state, waiting.periods
-    if not np.isfinite(periods.cof).all():
+            orbit = waiting.after(n_periods)
+    if not np.isfinite(orbit.period.cof).all():
         raise out_of_range(v_0)
-    on_the_way = 0.0 if waiting is None else waiting.on_the_way
-    waited, seen, motions = (waiting, None, None) if orbit is None else (None, orbit.seen, orbit.motions)
-    before = stepper.n_periods - (seen is not None)
-    return Converged(
-        case, v_0, resolution, springs, stepper, settling, state, before, on_the_way, waited, seen, motions
-    )
+    before = stepper.n_periods - (orbit.seen is not None)
+    return Converged(case, v_0, resolution, springs, stepper, orbit, before, waiting, n_periods is not None)
 
 
 def looked_at(end: Converged) -> Observed:
     """A close look at further periods of a march, one or as many as are to be kept."""
-    stepper, resolution, settling, state = end.stepper, end.resolution, end.settling, end.state
-    records = [end.seen] if end.seen is not None and resolution.record == 0 else []
-    while len(records) < max(1, resolution.record):
-        state, record = stepper.observe(state, keep=resolution.record > 0)
+    stepper, settling, state, n = end.stepper, end.settling, end.orbit.state, end.resolution.record
+    records = [end.orbit.seen] if end.orbit.seen is not None and n == 0 else []
+    while len(records) < max(1, n):
+        state, record = stepper.observe(state, keep=n > 0)
         records.append(record)
     if not all(np.isfinite(record.period.cof).all() for record in records):
         raise out_of_range(end.v_0)
-    if end.waited is not None:
+    if end.awaits and end.waited is not None:
         waited = copy(end.waited)
         for record in records:
             waited.append(record.period)
         settling = waited.assess()
-    account = records[0] if end.waited is None else records[-1]  # the same period however many are kept
+    account = records[-1] if end.awaits else records[0]  # the same period however many are kept
     march = Observed(end, settling, account, tuple(records))
-    why = _contradiction(stepper, account, settling) if settling.settled else ""
+    why = _contradiction(march) if settling.settled else ""
     return march.contradicted(why) if why else march
-
-
-def march(case: SlidingContact, v_0: float, resolution: Resolution, n_periods: int | None = None) -> Observed:
-    """Observed until settled, or exactly n_periods, the last ones of which are looked at closely."""
-    check(case, v_0)
-    before = None if n_periods is None else n_periods - max(1, resolution.record)
-    return looked_at(steady(case, v_0, resolution, before))
 
 
 def check(case: SlidingContact, v_0: float) -> None:
@@ -288,9 +284,9 @@ def check(case: SlidingContact, v_0: float) -> None:
         )
 
 
-def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, gain: float | None) -> Orbit | None:
+def _searched(stepper: Stepper, resolution: Resolution, near: Converged | None) -> Orbit | None:
     """The periodic state, where it can be solved for: of springs that know nothing of each other, each by itself."""
-    scaled, orbit = stepper.scaled, None
+    scaled, orbit, from_full_slip = stepper.scaled, None, resolution.start == "full_slip"
     at_once = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
     if at_once and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
@@ -299,11 +295,12 @@ def _searched(stepper: Stepper, from_full_slip: bool, near: Converged | None, ga
     )
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
-        start, motions = at_other_resolution(near.state, near.motions, near.scaled, scaled)
+        start, motions = at_other_resolution(near.orbit.state, near.orbit.motions, near.scaled, scaled)
         if alone and (orbit := search_alone(stepper, start)) is not None:
             return orbit
-        gain = near.settling.gain if near.stepper.v == stepper.v else gain
-        gain = gain_at_other_resolution(gain, near.scaled, scaled)
+        # that of a velocity close by will do where no bound rests on it
+        trusted = near.stepper.v == stepper.v or not resolution.bounded
+        gain = gain_at_other_resolution(near.settling.gain, near.scaled, scaled) if trusted else None
         orbit = search(stepper, (start,), gain, near=True, motions=motions)
     if alone and from_full_slip and (orbit := search_alone(stepper, stepper.full_slip())) is not None:
         return orbit
@@ -324,13 +321,15 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0))
 
 
-def _contradiction(stepper: Stepper, account: PeriodRecord, settling: Settling) -> str:
+def _contradiction(march: Observed) -> str:
     """Why the COF that a march has settled at cannot be one; nothing if it can."""
-    if not account.solved:
+    stepper, seen, settling, error = march.end.stepper, march.account, march.settling, march.end.error
+    if not seen.solved:
         return "the motion of the body over a step, in which it and its springs agree, was not found"
-    least = -1.0 if stepper.scaled.drive.is_shaken else float(account.seen.F[:, 1].min()) / stepper.mean_F_z
+    least = -1.0 if stepper.scaled.drive.is_shaken else float(seen.seen.F[:, 1].min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
-    return outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)
+    why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)
+    return why or ("" if error is None else outside(settling.mean, -1.0, error + settling.spread + TOLERANCE))
 
 
 def out_of_range(v_0: float) -> ValueError:

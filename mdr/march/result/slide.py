@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.march.march import BUDGET, Converged, Resolution, accuracy_of, check, looked_at, march, steady
-from mdr.march.refinement import check_size, default_springs, default_steps, within
-from mdr.march.run import SlidingRun, finish
+from mdr.march.periodic.steady import BUDGET, Converged, Resolution, check, steady
+from mdr.march.result.refinement import resolution_of, within
+from mdr.march.result.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, finite, positive
 from mdr.tools.keywords import offering
@@ -117,16 +117,15 @@ def slide(
     count("record", record, 0)
     if n_periods is not None and record > n_periods:
         raise ValueError(f"record = {record} periods cannot be kept of n_periods = {n_periods}")
-    first = n_springs or default_springs(case), steps_per_period or default_steps(case)
-    resolution = Resolution(*first, start, lump, record, accuracy_of(accuracy))
-    check_size(resolution.n_springs, resolution.steps, record)
+    resolution = resolution_of(case, n_springs, steps_per_period, accuracy, start, lump, record)
     if limit_s is not None:
         limit_s = positive("limit_s", limit_s, "seconds")
     with time_limit(limit_s):
         if n_periods is not None:
-            run = finish(march(case, v_0, resolution, n_periods), why="no companion run: cof_error holds settling only")
+            check(case, v_0)
+            run = finish(steady(case, v_0, resolution, n_periods - max(1, record)))
         else:
-            run = within(case, v_0, resolution, free=(n_springs is None, steps_per_period is None))[0]
+            run = finish(within(case, v_0, resolution))
     return run.mirrored if back else run
 
 
@@ -142,52 +141,19 @@ def _velocity(case: SlidingContact, v_0: Any) -> float:
     return velocity
 
 
-def slides(
-    case: SlidingContact,
-    velocities: Iterable[float],
-    n_springs: int | None,
-    steps_per_period: int | None,
-    accuracy: float = BUDGET,
-) -> Iterator[SlidingRun]:
-    """Runs at rising velocities, each begun in the state of the one before: what `slide` answers, sooner."""
-    first = n_springs or default_springs(case), steps_per_period or default_steps(case)
-    resolution, near = Resolution(*first, "full_slip", lump=True, accuracy=accuracy_of(accuracy)), None
-    check_size(resolution.n_springs, resolution.steps, 0)
-    for v_0 in velocities:
-        run, end = within(case, v_0, resolution, (n_springs is None, steps_per_period is None), near)
-        near = end.to_begin_from
-        yield run
+def runs(
+    case: SlidingContact, velocities: Iterable[float], resolution: Resolution, near: Converged | None = None
+) -> Iterator[Converged]:
+    """The ends of runs at these velocities, each begun in the state of the one before: what `slide` answers, sooner.
 
-
-def slide_without_bound(
-    case: SlidingContact,
-    v_0: float,
-    *,
-    n_springs: int,
-    steps_per_period: int,
-    start: str,
-    near: Converged | None = None,
-) -> tuple[SlidingRun, Converged]:
-    """A run without companions, and its end: its error is that of settling.
-
-    near: the end of a run at another velocity, in the state of which it begins, and whose gain it takes for its own.
+    near: the end of a run in which the first begins. Without companions (resolution.bounded) their error is that of
+    settling.
     """
-    end = _alone(case, v_0, Resolution(n_springs, steps_per_period, start, lump=True), near)
-    return finish(looked_at(end)), end
-
-
-def cofs_without_bound(
-    case: SlidingContact, velocities: Iterable[float], n_springs: int, steps: int
-) -> Iterator[float]:
-    """COFs at rising velocities by one run each, without companions that bound the error, as a fit asks for them."""
-    resolution, near = Resolution(n_springs, steps, "full_slip", lump=True), None
     for v_0 in velocities:
-        end = _alone(case, v_0, resolution, near)
-        near = end if end.settling.solved else None
-        yield case.mu_0 * end.cof
-
-
-def _alone(case: SlidingContact, v_0: float, resolution: Resolution, near: Converged | None) -> Converged:
-    """The end of a run without companions, for which the gain of a run at a velocity close by will do."""
-    check(case, v_0)
-    return steady(case, v_0, resolution, near=near, gain=None if near is None else near.settling.gain)
+        if resolution.bounded:
+            end = within(case, v_0, resolution, near)
+        else:
+            check(case, v_0)
+            end = steady(case, v_0, resolution, near=near)
+        near = end.to_begin_from
+        yield end

@@ -24,8 +24,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.march import orbit_loop
-from mdr.march.stepper import Periods
+from mdr.march.dynamics.stepper import Periods
+from mdr.march.periodic import anderson
+from mdr.march.periodic.solver import iterate
 from mdr.tools.arrays import Array
 
 Measure = Callable[[Array], Array]
@@ -106,15 +107,15 @@ class Options:
 
     def by_anderson(
         self, x: Array, measure: Measure = np.asarray, motions: SlowMotions | None = None
-    ) -> orbit_loop.Search:
+    ) -> anderson.Search:
         """Anderson's method at its beginning, from a state (n,); motions: slow ones that it may begin to combine."""
         memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # differences between so many images
         (start, image, moved, best), (d_image, d_moved) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
         counts = np.zeros(3, dtype=np.int64)
         if motions is not None:
-            counts[orbit_loop.KEPT] = k = min(len(motions.after), memory)
+            counts[anderson.KEPT] = k = min(len(motions.after), memory)
             d_image[:k], d_moved[:k] = motions.after[:k], measure(motions.after[:k] - motions.before[:k])
-        return orbit_loop.Search(
+        return anderson.Search(
             x=x.copy(),
             start=start,
             image=image,
@@ -149,7 +150,8 @@ def find(
     if near is None:
         return None
     if near.change > how.close:
-        near = _newton_picard(step, near, measure, pushes(), how.close)
+        solver = _NewtonPicard(step, measure, pushes(), how.close)
+        near = iterate(solver, _Corrected(near, PUSH, np.ones(len(solver.pushes)))).best
     if near.change > max(how.close, CLOSE):
         return None
     if gain is not None:
@@ -160,44 +162,53 @@ def find(
     return FixedPoint(near, gain, motions) if gain is not None else None
 
 
-def _newton_picard(
-    step: PeriodMap, start: Iterate, measure: Measure, pushes: tuple[Array, ...], close: float
-) -> Iterate:
-    """The state of least change that corrections along the pushed motions lead to.
+@dataclass(frozen=True, eq=False)
+class _Corrected:
+    """Where Newton-Picard corrections have come to."""
+
+    best: Iterate  #: the state of least change
+    push: float  #: length of the next pushes, over the size of the state
+    ways: Array  #: (k,) sign of each of them
+    lost: int = 0  #: corrections in a row of which no share was a gain
+
+
+class _NewtonPicard:
+    """Corrections along the pushed motions, for a state of less change over a period.
 
     The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go the
     same way and as far, to see the slope on both sides of it.
     """
-    best, push, lost, ways = start, PUSH, 0, np.ones(len(pushes))
-    for _ in range(TURNS):
-        tried_ways = tuple(way * one for way, one in zip(ways, pushes, strict=True))
-        (x, image), before, after = _displaced(step, best.x, measure, tried_ways, push)
+
+    most = TURNS
+
+    def __init__(self, step: PeriodMap, measure: Measure, pushes: tuple[Array, ...], close: float) -> None:
+        self.period, self.measure, self.pushes, self.close = step, measure, pushes, close
+
+    def ended(self, at: _Corrected) -> bool:
+        return at.best.change <= self.close or at.lost == LOST or not np.isfinite(at.best.change)
+
+    def step(self, at: _Corrected) -> _Corrected:
+        measure = self.measure
+        tried_ways = tuple(way * one for way, one in zip(at.ways, self.pushes, strict=True))
+        (x, image), before, after = _displaced(self.period, at.best.x, measure, tried_ways, at.push)
         size = float(np.linalg.norm(measure(image))) + 1e-300
         best = Iterate(image, float(np.linalg.norm(measure(image - x))) / size)
         turn = measure(after - before).T
         if not np.isfinite(turn).all():
-            break
+            return _Corrected(best, at.push, at.ways, LOST)
         share = -np.linalg.lstsq(turn, measure(image - x), rcond=1e-12)[0]
-        move = share @ after
+        move, ways = share @ after, at.ways * np.where(share < 0, -1, 1)
         part = 1.0
         while part >= SHORTEST:
             tried = image + part * move
-            reached = step(tried)
+            reached = self.period(tried)
             change = float(np.linalg.norm(measure(reached - tried))) / size
             if change < (1 - 0.1 * part) * best.change:
-                break
+                push = float(np.linalg.norm(part * measure(move))) / size
+                push = float(np.clip(push, 1e-9, PUSH if part == 1 else FARTHEST))
+                return _Corrected(Iterate(reached, change), push, ways)
             part *= 0.5
-        lost = 0 if part >= SHORTEST else lost + 1
-        if part >= SHORTEST:
-            best = Iterate(reached, change)
-        if lost:  # no share was a gain: what these pushes saw was not of here
-            push *= 0.1
-        else:
-            push = float(np.clip(part * np.linalg.norm(measure(move)) / size, 1e-9, PUSH if part == 1 else FARTHEST))
-        ways = ways * np.where(share < 0, -1, 1)
-        if best.change <= close or lost == LOST or not np.isfinite(best.change):
-            break
-    return best
+        return _Corrected(best, 0.1 * at.push, ways, at.lost + 1)  # what these pushes saw was not of here
 
 
 def _settled_in(step: PeriodMap, x: Array) -> tuple[Array, Array]:

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.march.body import RATE, Y
-from mdr.spring.contact import Look
+from mdr.march.dynamics.body import RATE, Y
+from mdr.spring.contact import Look, within
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
 from mdr.spring.motion import glassy
 from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path, along
@@ -424,6 +424,13 @@ def next_place(x, f, most, ends):
 def note(trace, j, part, t, path):
     """Leave the way of the top over a part, 0 or 1, of step j."""
     trace.way[j, part, 0], trace.way[j, part, 1], trace.way[j, part, 2] = t, path.x_1, path.x_2
+
+
+@_jit
+def within_friction(e, s):
+    """Bring the extensions into the cone of friction: combinations of states may leave it."""
+    for i in range(s.shape[1]):
+        e[0, i] = within(e[0, i], s[0, i])
 
 
 @_jit

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.march.stepper import PeriodRecord, Stepper
+from mdr.march.dynamics.stepper import PeriodRecord, Stepper
 from mdr.spring.energies import FRICTION_LOSS, NORMAL_VISCOUS, NORMAL_WORK, SHAKE_WORK, SHEAR_VISCOUS, SHEAR_WORK, gauss
 from mdr.tools.arrays import EXACT, Array
 

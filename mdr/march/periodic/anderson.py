@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.loop import copy, march, put
-from mdr.spring.contact import within
+from mdr.march.dynamics.loop import copy, march, put, within_friction
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -84,13 +83,6 @@ def combine(at, image, roots):
             for i in range(image.size):
                 at.x[i] -= share[j] * at.d_image[j, i]
     return False
-
-
-@_jit
-def within_friction(e, s):
-    """Bring the extensions into the cone of friction: combinations may leave it."""
-    for i in range(s.shape[1]):
-        e[0, i] = within(e[0, i], s[0, i])
 
 
 @_jit

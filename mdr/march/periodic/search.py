@@ -1,6 +1,6 @@
 """The search for the periodic orbit of a contact by shooting: which states it begins from, and how far it may be off.
 
-What periodic_orbit.py solves for any map that does not expand is put here to the map of one period of the march, in
+What fixed_point.py solves for any map that does not expand is put here to the map of one period of the march, in
 the norm of energy of springs, system spring and mass.
 """
 
@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mdr.march import orbit_loop
-from mdr.march import periodic_orbit as periodic
-from mdr.march.body import N_BODY, RATE, Body, Y
-from mdr.march.dimensionless import ScaledContact
-from mdr.march.steady_state import LATE, UNKNOWN, Settling
-from mdr.march.stepper import AT_ONCE, MarchState, PeriodRecord, Periods, Stepper
+from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
+from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.stepper import AT_ONCE, UNKNOWN, MarchState, PeriodRecord, Periods, Stepper
+from mdr.march.periodic import anderson, fixed_point
+from mdr.march.periodic.settling import LATE, Settling
+from mdr.march.periodic.solver import OutOfTime, iterate
 from mdr.spring.energies import LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import time_is_over
@@ -37,11 +37,7 @@ class Orbit:
     period: Periods
     settling: Settling
     seen: PeriodRecord | None = None  #: a close look at that period, where one was taken
-    motions: periodic.SlowMotions | None = None  #: the slow ones about it, where they are known
-
-
-class _OutOfTime(Exception):
-    """The time limit of the caller is over in the middle of a search."""
+    motions: fixed_point.SlowMotions | None = None  #: the slow ones about it, where they are known
 
 
 def search(
@@ -49,7 +45,7 @@ def search(
     starts: tuple[MarchState, ...],
     gain: float | None = None,
     near: bool = False,
-    motions: periodic.SlowMotions | None = None,
+    motions: fixed_point.SlowMotions | None = None,
 ) -> Orbit | None:
     """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
 
@@ -63,28 +59,28 @@ def search(
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
     if slow and scaled.body.C:
-        slow += (scaled.body.M / (np.pi * scaled.body.C) / periodic.CREEP,)
+        slow += (scaled.body.M / (np.pi * scaled.body.C) / fixed_point.CREEP,)
     if scaled.body.pull_time > SLOW_PULL:
-        slow += (2 * scaled.body.pull_time / periodic.CREEP,)  # a material may be slower than is seen; this is known
-    how = periodic.Options(
-        slow, bool(slow) and (scaled.body.rigid or scaled.body.C > 0), plain=0 if near else periodic.PLAIN
+        slow += (2 * scaled.body.pull_time / fixed_point.CREEP,)  # a material may be slower than is seen; this is known
+    how = fixed_point.Options(
+        slow, bool(slow) and (scaled.body.rigid or scaled.body.C > 0), plain=0 if near else fixed_point.PLAIN
     )
     first = stepper.tolerance / (SHARE * (gain or max((1.0, *slow))))
     for start in starts:
         x, orbit, period, close = start.x, None, _Period(stepper, start), first
         while True:
-            how, arrived = replace(how, close=max(close, periodic.CLOSEST)), None
+            how, arrived = replace(how, close=max(close, fixed_point.CLOSEST)), None
             try:
                 arrived = _by_anderson(stepper, start.with_vector(x), norm, how, motions)
                 if arrived is not None and (full := _full_slip(stepper, start, arrived, norm)) is not None:
                     return full
-                found = periodic.find(period, arrived, norm.of, norm.pushes, how, gain)
-            except _OutOfTime:
+                found = fixed_point.find(period, arrived, norm.of, norm.pushes, how, gain)
+            except OutOfTime:
                 arrived = found = None
             if found is None:
-                if arrived is None or close <= periodic.CLOSE:
+                if arrived is None or close <= fixed_point.CLOSE:
                     break
-                x, close = arrived.x, periodic.CLOSE
+                x, close = arrived.x, fixed_point.CLOSE
                 continue
             motions = found.motions or motions
             orbit = replace(_repeated(stepper, start.with_vector(found.x), found, norm), motions=motions)
@@ -92,10 +88,10 @@ def search(
             if (
                 spread <= stepper.tolerance
                 and orbit.settling.settled
-                and (close <= periodic.CLOSE or not _nearly_full(orbit.settling.mean))
+                and (close <= fixed_point.CLOSE or not _nearly_full(orbit.settling.mean))
             ):
                 return orbit
-            if close <= periodic.CLOSEST:
+            if close <= fixed_point.CLOSEST:
                 break
             close *= min(0.01, stepper.tolerance / (SHARE * spread + 1e-300))
         if orbit is not None and (slow or orbit.settling.settled):  # waiting for slow motions takes far longer
@@ -112,26 +108,47 @@ class _Period:
 
     def __call__(self, x: Array) -> Array:
         if time_is_over():
-            raise _OutOfTime
+            raise OutOfTime
         return self.stepper.period(self.stepper.within_friction(self.like.with_vector(x))).x
 
 
+class _Anderson:
+    """Anderson's method from a state on: in each step as many periods as are marched at once."""
+
+    def __init__(self, stepper: Stepper, start: MarchState, norm: EnergyNorm, most: int) -> None:
+        self.stepper, self.start, self.roots, self.left = stepper, start, norm.roots, most
+        self.at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
+        self.most, self.has_ended, self.trace = -(-most // self.at_once), False, stepper.scaled.trace()
+
+    def ended(self, at: anderson.Search) -> bool:
+        return self.has_ended
+
+    def step(self, at: anderson.Search) -> anderson.Search:
+        """The same search, which goes on in place."""
+        image, n_before = self.start.copy(), int(at.counts[anderson.PERIODS])
+        state, n = (image.x, image.e, image.s, image.body), min(self.left, self.at_once)
+        ended = anderson.search(at, *state, self.start.s, self.roots, *self.stepper.parts, n, self.trace)
+        self.has_ended = bool(ended)
+        self.left -= self.at_once
+        self.stepper.count(int(at.counts[anderson.PERIODS]) - n_before)
+        return at
+
+
 def _by_anderson(
-    stepper: Stepper, start: MarchState, norm: EnergyNorm, how: periodic.Options, motions: periodic.SlowMotions | None
-) -> periodic.Iterate | None:
+    stepper: Stepper,
+    start: MarchState,
+    norm: EnergyNorm,
+    how: fixed_point.Options,
+    motions: fixed_point.SlowMotions | None,
+) -> fixed_point.Iterate | None:
     """The state of least change that Anderson's method meets; None where a state leaves the range of floats."""
-    at, left, ended = how.by_anderson(start.x, norm.of, motions), how.most, False
-    at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
-    while left > 0 and not ended:
-        if time_is_over():
-            raise _OutOfTime
-        ended, last = stepper.search(at, start, norm.roots, min(left, at_once))
-        left -= at_once
-    change = float(at.changes[orbit_loop.BEST])
+    solver = _Anderson(stepper, start, norm, how.most)
+    at = iterate(solver, how.by_anderson(start.x, norm.of, motions))
+    change = float(at.changes[anderson.BEST])
     if not np.isfinite(change):
         return None
-    is_last = at.counts[orbit_loop.SINCE] == at.counts[orbit_loop.PERIODS] - 1
-    return periodic.Iterate(at.best, change, last if is_last else None)
+    is_last = at.counts[anderson.SINCE] == at.counts[anderson.PERIODS] - 1
+    return fixed_point.Iterate(at.best, change, stepper.periods_of(solver.trace) if is_last else None)
 
 
 def _nearly_full(cof: float) -> bool:
@@ -146,13 +163,13 @@ def search_from_full_slip(stepper: Stepper) -> Orbit | None:
 
 
 def at_other_resolution(
-    state: MarchState, motions: periodic.SlowMotions | None, of: ScaledContact, on: ScaledContact
-) -> tuple[MarchState, periodic.SlowMotions | None]:
+    state: MarchState, motions: fixed_point.SlowMotions | None, of: ScaledContact, on: ScaledContact
+) -> tuple[MarchState, fixed_point.SlowMotions | None]:
     """A state of a march with other springs or steps, and the slow motions about it, on those of this one."""
     parts = [state.x[None]] if motions is None else [state.x[None], motions.before, motions.after]
     xs = _on_other_springs(np.concatenate(parts), of, on)
     if motions is not None:
-        motions = periodic.SlowMotions(*np.split(xs[1:], 2))
+        motions = fixed_point.SlowMotions(*np.split(xs[1:], 2))
     return MarchState(xs[0], on.normal.s.copy()), motions
 
 
@@ -175,7 +192,7 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
     return gain / (1 - gain * h**2) if gain is not None and gain * h**2 < SAME_GAIN else None
 
 
-def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm: EnergyNorm) -> Orbit | None:
+def _full_slip(stepper: Stepper, like: MarchState, near: fixed_point.Iterate, norm: EnergyNorm) -> Orbit | None:
     """The orbit of a state in full slip that is far from stick; None of any other state.
 
     Its least slip velocity is more than AGES times what changes over a period. So it need not be close to the exact
@@ -197,7 +214,7 @@ def _full_slip(stepper: Stepper, like: MarchState, near: periodic.Iterate, norm:
     return Orbit(state, record.period, Settling(cof, 0.0, True, "periodic", gain=np.inf), record)
 
 
-def _repeated(stepper: Stepper, state: MarchState, found: periodic.FixedPoint, norm: EnergyNorm) -> Orbit:
+def _repeated(stepper: Stepper, state: MarchState, found: fixed_point.FixedPoint, norm: EnergyNorm) -> Orbit:
     """The COF of the periodic state, and how far it may be from that of the exact one."""
     # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
     spread = 2 * found.distance * float(np.linalg.norm(norm.of(found.x))) / stepper.mean_F_z

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
-from mdr.march import loop
-from mdr.march.body import Body, body_of
-from mdr.march.full_slip import FullSlip
+from mdr.march.dynamics import loop
+from mdr.march.dynamics.body import Body, body_of
+from mdr.march.dynamics.full_slip import FullSlip
 from mdr.materials.operator import SLOWEST, Rheology
 from mdr.normal.springs import SpringArray
 from mdr.spring.law import Law, law_of

@@ -1,0 +1,1 @@
+"""The motion in scaled form: body and springs over a step, a period, and many periods."""

@@ -1,0 +1,1 @@
+"""The periodic state of a march: searched for, or waited for, and held to the theorems on friction."""
