@@ -153,4 +153,4 @@ def followed_springs(rheology: Rheology, gap: Array, w: Array, cycle: Cycle, n_t
 
 def _at_instants(known: NormalPeriod) -> tuple[Array, Array]:
     """At the instants, from phase 0, force and share of the step before for which a spring has pressed, (n_t, n)."""
-    return np.roll(known.force, 1, axis=0), np.roll(known.since, 1, axis=0)
+    return np.roll(known.force, 1, axis=0), np.roll(known.pressed_for, 1, axis=0)

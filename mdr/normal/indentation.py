@@ -318,7 +318,7 @@ class _Springs:
         else:
             rate = (u_1 - u_0) / step.times.h
             press(s, g, g, Path(u_0, rate, 0.0, 0.0, 0.0), rate, *self.law, step, each)
-            np.copyto(s[0], u_1 - g, where=each.since > 0)
+            np.copyto(s[0], u_1 - g, where=each.pressed_for > 0)
         return s
 
     def lifted(self, s: Array, step: Tools) -> tuple[Array, float]:

@@ -41,7 +41,7 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
     band = followed_springs(rheology, gap[n_core:] / cycle.unit, width[n_kept:], cycle, N_STEPS)
     presses = np.ones((N_STEPS + 1, width.size), dtype=bool)
-    presses[1:, n_kept:] = band.since > 0
+    presses[1:, n_kept:] = band.pressed_for > 0
     presses[0] = presses[-1]
     M = load.m_z * load.omega**2 / material.E_star
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)

@@ -33,7 +33,7 @@ MOST_EVENTS = 100  #: of a spring in one step or stretch of contact; what comes 
 
 
 class Answer(NamedTuple):
-    """What a row of springs answers of a step: sums over the springs, each weighted by its share of the stiffness.
+    """Answer of a row of springs to a step: sums over the springs, each weighted by its share of the stiffness.
 
     Forces and their moments about the begin of the step are numbers along a line, vectors in the plane.
     """
@@ -42,7 +42,7 @@ class Answer(NamedTuple):
     moment: complex
     end: complex  #: the force at the end
     stuck: float  #: time in stick
-    when: float  #: its moment
+    stuck_moment: float  #: its moment
     sticking: float  #: share that sticks at the end
     back: float  #: share that slips back there
     normal_area: float  #: of the normal force
@@ -52,7 +52,7 @@ class Answer(NamedTuple):
 
 
 class Friction(NamedTuple):
-    """What friction does over a stretch of contact."""
+    """Friction over a stretch of contact."""
 
     mode: int  #: at its end
     n: complex  #: direction of the force there, where the spring slips
@@ -60,21 +60,21 @@ class Friction(NamedTuple):
     area: complex  #: of the tangential force over the stretch
     moment: complex  #: about the begin of the step
     stuck: float  #: time in stick
-    when: float  #: its moment
+    stuck_moment: float  #: its moment
     normal_area: float
     normal_moment: float
 
 
 class Each(NamedTuple):
-    """What is asked of each of n springs at the end of a step without a look."""
+    """Force and time of contact of each of n springs at the end of a step; to be asked for."""
 
-    since: Array  #: (n,) share of the step for which it has pressed since it last touched; zero in flight
+    pressed_for: Array  #: (n,) share of the step for which it has pressed since it last touched; zero in flight
     f: Array  #: (n,) tangential force over its stiffness
     f_z: Array  #: (n,) normal force likewise
 
 
 class Look(NamedTuple):
-    """What a close look at a step fills, of n springs."""
+    """Record that a close look at a step fills, of n springs."""
 
     nodes: Nodes  #: over the whole step
     sums: Array  #: (N_SUMS,) of which it adds up
@@ -86,7 +86,7 @@ class Look(NamedTuple):
 
 @_inline
 def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, tools):
-    """Whether spring i presses, and until when it goes on as it does: infinite for all of the time t. At the begin of a
+    """Contact of spring i, and the time until it ends or begins: infinite for all of the time t. At the begin of a
     step one that touches may already be let go; later on it does what the event before has told.
     """
     x, until, fallen, rate, of_force = s[0, i], NEVER, 0.0, 0.0, tol * G
@@ -122,29 +122,29 @@ def within(f, R):
 
 
 @_inline
-def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    """Springs over a step. rub: the friction over a stretch of contact; or None, as e, for the normal part alone. who:
-    numbers of the springs, or None for all. The others as of row.py. What is None is compiled away.
+def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    """Springs over a step. rub: the friction over a stretch of contact; or None, as e, for the normal part alone.
+    indices: numbers of the springs, or None for all. The others as of row.py. What is None is compiled away.
     """
     h, G = tools.times.h, glassy(arms)
     area = moment = end = nothing = 0.0 * path.x_1  # a number or a vector
-    stuck = when = sticking = back = 0.0
+    stuck = stuck_moment = sticking = back = 0.0
     normal_area = normal_moment = normal_end = pressed = 0.0
     if look is not None:
         look.F[2] = np.inf
-    off = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
+    rate_miss = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
     if excess is not None:
         for j in range(s.shape[0]):
             excess[j, 0] = 0.0
-    n_who = gap.size
-    if who is not None:
-        n_who = who.size
-    for m in range(n_who):
+    n_indices = gap.size
+    if indices is not None:
+        n_indices = indices.size
+    for m in range(n_indices):
         i = m
-        if who is not None:
-            i = who[m]
+        if indices is not None:
+            i = indices[m]
         tol = ROUNDING * (1.0 + abs(gap[i]))
-        z_0, z_1, t, done, k, since, mode = path.z_0 - gap[i], path.z_1, h, 0.0, STEP, 0.0, FREE
+        z_0, z_1, t, done, k, pressed_for, mode = path.z_0 - gap[i], path.z_1, h, 0.0, STEP, 0.0, FREE
         n, vel = nothing, 0.0
         presses = s[0, i] <= z_0 + tol
         if presses:
@@ -156,7 +156,7 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                 t, k = until, PART
                 fill(t, modes, arms, tools.times, PART)
             if not presses:
-                mode, since, before = FREE, 0.0, (0.0, 0.0)
+                mode, pressed_for, before = FREE, 0.0, (0.0, 0.0)
                 if look is not None and modes is not None:  # without, nothing is lost in flight but a rounding
                     before = stored(s, i, arms), stored(e, i, arms)
                 relax(s, i, k, modes, arms, tools.room.modes, tools.times)
@@ -166,7 +166,7 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                     look.sums[NORMAL_VISCOUS] += w[i] * (before[0] - stored(s, i, arms))
                     look.sums[SHEAR_VISCOUS] += w[i] * (before[1] - stored(e, i, arms))
             elif t > ROUNDING * h:
-                since += t
+                pressed_for += t
                 if rub is None:
                     A, B = hold(s, i, z_1, path.z_2, t, k, T, tools, arms)
                     mode = STICK
@@ -174,10 +174,10 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                     normal_moment += w[i] * (done * A + B)
                 else:
                     z, x = (z_1, path.z_2), (path.x_1 + 2.0 * path.x_2 * done, path.x_2)
-                    of = rub(s, e, i, w[i], z, x, t, k, done, tol, off, T, modes, arms, tools, look)
+                    of = rub(s, e, i, w[i], z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
                     mode, n, vel = of.mode, of.n, of.vel
                     area, moment = area + w[i] * of.area, moment + w[i] * of.moment
-                    stuck, when = stuck + w[i] * of.stuck, when + w[i] * of.when
+                    stuck, stuck_moment = stuck + w[i] * of.stuck, stuck_moment + w[i] * of.stuck_moment
                     normal_area += w[i] * of.normal_area
                     normal_moment += w[i] * of.normal_moment
             if not ends:
@@ -207,14 +207,16 @@ def one_row(rub, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess,
                         left = e[j, i] - s[j, i] if mode == STICK else -2.0 * s[j, i] if mode == SLIP_BACK else 0.0
                         excess[j, 0] += w[i] * left
         if each is not None:
-            each.since[i], each.f[i], each.f_z[i] = since / h if h > 0.0 else 0.0, f, R
+            each.pressed_for[i], each.f[i], each.f_z[i] = pressed_for / h if h > 0.0 else 0.0, f, R
         if look is not None:
             if mode != FREE:
                 look.F[2] = min(look.F[2], vel)
             look.mode[i], look.f[i], look.f_z[i] = mode, f, R
     if look is not None:
         look.F[0], look.F[1], look.F[3] = end.real, normal_end, end.imag
-    return Answer(area, moment, end, stuck, when, sticking, back, normal_area, normal_moment, normal_end, pressed)
+    return Answer(
+        area, moment, end, stuck, stuck_moment, sticking, back, normal_area, normal_moment, normal_end, pressed
+    )
 
 
 @_call

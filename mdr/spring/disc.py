@@ -2,7 +2,7 @@
 contact: a disc in the place of the interval of line.py.
 
 * *stick*: e goes with the top, L[e] is known, until its length comes to R;
-* *slip*: |L[e]| = R, along the slip velocity, which turns (dragged.py), until that velocity comes to zero.
+* *slip*: |L[e]| = R, along the slip velocity, which returns (dragged.py), until that velocity comes to zero.
 
 Arms remember the slip, which depends on their memory: the two are brought in line with each other.
 """
@@ -18,7 +18,7 @@ from mdr.spring.dragged import EVEN, TINY, Slip, slides, yielded
 from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_pressing
 from mdr.spring.law import phi_of
 from mdr.spring.motion import end_force, glassy, held_force, hold
-from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, since, size_of, slope
+from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, cubic_later, size_of, slope
 from mdr.spring.times import PART, fill
 from mdr.spring.whole import TOUCHING
 from mdr.tools.jit import inner
@@ -34,7 +34,7 @@ INSIDE = 10.0  #: times what is rounding, by which a force is told from one on t
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
 
 
-class Way(NamedTuple):
+class Parabola(NamedTuple):
     """The way p t + q t² of the top, or of the end of a spring."""
 
     p: complex
@@ -63,7 +63,7 @@ class Bracket(NamedTuple):
 
 
 class Stretch(NamedTuple):
-    """What friction does over a time in one mode."""
+    """Friction over a time in one mode."""
 
     t: float
     lasts: bool  #: whether the mode lasts for all of the time that was given
@@ -103,8 +103,8 @@ def nearer(b, mid, f):
 
 
 @_inline
-def excess(f, R, t):
-    """By how much a force is outside its disc at a time."""
+def outside(f, R, t):
+    """Distance of a force from its disc at a time; negative inside."""
     return size_of(at(f, t)) - at(R, t)
 
 
@@ -122,7 +122,7 @@ def until_outside(f, R, t, tol):
     high = 0.0
     for half in range(2):
         low, high = high, 0.5 * (half + 1) * t
-        if excess(f, R, high) > tol:
+        if outside(f, R, high) > tol:
             return low, high
         b = Bracket(low, high, leaves(f, R, low), leaves(f, R, high), 0)
         if b.f_low > 0.0 and b.f_high < 0.0:  # nearest to the rim in between
@@ -133,7 +133,7 @@ def until_outside(f, R, t, tol):
                 if rate == 0.0 or b.high - b.low <= 1e-9 * t:
                     break
                 b = nearer(b, mid, rate)
-            if excess(f, R, mid) > tol:
+            if outside(f, R, mid) > tol:
                 return low, mid
     return t, NEVER
 
@@ -144,22 +144,22 @@ def until_slip(f, R, t, tol):
     low, high = until_outside(f, R, t, tol)
     if high > t:
         return t
-    if excess(f, R, low) > -tol and leaves(f, R, low) < 0.0:  # from the rim inward, and out again later
+    if outside(f, R, low) > -tol and leaves(f, R, low) < 0.0:  # from the rim inward, and out again later
         part = high - low
         for _ in range(MOST_HALVINGS):
             part *= 0.5
-            out = excess(f, R, low + part)
+            out = outside(f, R, low + part)
             if out < -tol:
                 low += part
                 break
             if out > tol:
                 high = low + part
-    b = Bracket(low, high, min(excess(f, R, low), -0.0), excess(f, R, high), 0)
+    b = Bracket(low, high, min(outside(f, R, low), -0.0), outside(f, R, high), 0)
     for _ in range(MOST_HALVINGS):
         if b.high - b.low <= 1e-15 * t:
             break
         mid = between(b)
-        out = excess(f, R, mid)
+        out = outside(f, R, mid)
         if abs(out) <= 0.1 * tol:
             return mid
         b = nearer(b, mid, out)
@@ -167,10 +167,10 @@ def until_slip(f, R, t, tol):
 
 
 @_inline
-def held_excess(e, i, top, R, u, T, arms, tools):
-    """By how much the force of spring i on arms that sticks for a time u is outside its disc then: exact."""
+def outside_exactly(e, i, top, R, u, T, arms, tools):
+    """Distance from its disc of the force of spring i on arms that sticks for a time u: exact."""
     fill(u, None, arms, tools.times, PART)
-    return excess(cubic(held_force(e, i, top.p, top.q, u, PART, T, tools, arms), u), R, u)
+    return outside(cubic(held_force(e, i, top.p, top.q, u, PART, T, tools, arms), u), R, u)
 
 
 @_inline
@@ -179,21 +179,21 @@ def until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools):
     the cubic is wrong and it does not: arms that relax within t are no cubic.
     """
     until = max(until, SOON * t)
-    out, low, high, f_low, f_high = held_excess(e, i, top, R, until, T, arms, tools), 0.0, until, -0.0, 0.0
-    if until == SOON * t and out >= -tol and excess(f, R, 0.0) >= -tol:
+    out, low, high, f_low, f_high = outside_exactly(e, i, top, R, until, T, arms, tools), 0.0, until, -0.0, 0.0
+    if until == SOON * t and out >= -tol and outside(f, R, 0.0) >= -tol:
         return 0.0
     if until == SOON * t and out < -tol:
         return until
     if out <= tol:
-        low, high, f_low, f_high = until, t, min(out, -0.0), excess(f, R, t)
+        low, high, f_low, f_high = until, t, min(out, -0.0), outside(f, R, t)
         if f_high <= tol or out > -tol:
             return until
     else:
-        f_low, f_high = min(excess(f, R, 0.0), -0.0), out
+        f_low, f_high = min(outside(f, R, 0.0), -0.0), out
         if f_low > -tol and leaves(f, R, 0.0) < 0.0:  # from the rim inward
             for _ in range(MOST_HALVINGS):
                 part = 0.5 * high
-                out = held_excess(e, i, top, R, part, T, arms, tools)
+                out = outside_exactly(e, i, top, R, part, T, arms, tools)
                 if out < -tol:
                     low, f_low = part, out
                     break
@@ -205,7 +205,7 @@ def until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools):
         mid = between(b)
         if b.high - b.low <= 1e-15 * t or not b.low < mid < b.high:
             break
-        out = held_excess(e, i, top, R, mid, T, arms, tools)
+        out = outside_exactly(e, i, top, R, mid, T, arms, tools)
         if abs(out) <= tol:
             return mid
         b = nearer(b, mid, out)
@@ -238,7 +238,7 @@ def sticks(e, i, w, top, R, t, k, tol, T, modes, arms, tools, look):
 
 @_inline
 def remembered(e, i, p, p_fast, q, t, k, keep, tools, arms):
-    """What the arms of spring i, held on p t + q t² for a time t, come to: the sums of rho_j e_j, of rho_j e_j/theta_j,
+    """Arms of spring i after a time t on p t + q t²: the sums of rho_j e_j, of rho_j e_j/theta_j,
     and the mean of the latter over the time. Fast arms, of theta_j < h, are held on p_fast t + q t². keep: True stores
     what they come to.
     """
@@ -259,8 +259,8 @@ def remembered(e, i, p, p_fast, q, t, k, keep, tools, arms):
 
 @_inline
 def arms_give(t, k, G, T, tools, arms):
-    """By how much the length of an extension over a time t exceeds that of its slow arms; and the memory of its fast
-    ones its slip velocity at the end.
+    """Correction for arms over a time t: extension over the one without slow arms; slip velocity at the end that the
+    memory of fast ones adds, over it.
     """
     per, back, gives = t, 0.0, 1.0 / G
     for j in range(arms.rho.size):
@@ -275,7 +275,7 @@ def arms_give(t, k, G, T, tools, arms):
 
 @_inline
 def is_slow(t, T, arms):
-    """Whether a dashpot is so slow in a time that what it yields is taken from the integral of the force."""
+    """True for a dashpot so slow in a time that its yield is taken from the integral of the force."""
     return t < T if arms is None else SLOW * t < T
 
 
@@ -286,13 +286,13 @@ def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
     are brought in line with each other.
     """
     rate_0, rate_1 = top.p - start.vel * start.n, top.p + 2.0 * t * top.q
-    v, way = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Way(rate_0, 0.0j)
-    of, per, back, turns, others = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), t, 0.0, 1, 0.0j
+    v, way = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Parabola(rate_0, 0.0j)
+    of, per, back, returns, others = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), t, 0.0, 1, 0.0j
     last, f_0, f_1 = 0.0j, max(R.a, 0.0) * start.n, max(at(R, t), 0.0)
     if arms is not None:
         per, back = arms_give(t, k, G, T, tools, arms)
-        turns = MOST_RETURNS
-    for _ in range(turns):
+        returns = MOST_RETURNS
+    for _ in range(returns):
         if arms is not None:
             # by the parabola of both ends and the mean, as R goes: then what relaxes with the disc does not slip
             _, last, mean = remembered(e, i, way.p, rate_0, way.q, t, k, False, tools, arms)
@@ -316,7 +316,7 @@ def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
                 mean = (of.area - borne - bend) * (1.0 / (t * T + 0.5 * t * per))
         else:
             mean = ((f_1 + T * of.vel) * of.n - T * rate_1 - e[0, i] - others) * (1.0 / per)
-        way = Way(mean - t * q, q)
+        way = Parabola(mean - t * q, q)
     return of, way
 
 
@@ -325,10 +325,10 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
     """Slip from now on, for as long as it lasts: until its velocity falls below zero. forced: it lasts in any case."""
     h = tools.times.h
     lasts, b = True, Bracket(0.0, t, start.vel, 0.0, 0)
-    of, way = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Way(0.0j, 0.0j)
-    for turn in range(MOST_HALVINGS):
+    of, way = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Parabola(0.0j, 0.0j)
+    for iteration in range(MOST_HALVINGS):
         of, way = slip_over(e, i, top, start, R, t, k, look is not None, G, T, arms, tools)
-        if turn == 0:
+        if iteration == 0:
             if forced or of.vel >= 0.0:
                 break
             lasts = False
@@ -364,8 +364,8 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
 
 @_inline
 def even_part(R, more, t, shortest):
-    """How much of a time t to follow slip for at once, on the leash R + more, R a cubic: two nodes tell how far it
-    turns the spring only where it does not change much.
+    """Part of a time t that slip is followed for at once, on the leash R + more, R a cubic: two nodes tell how far it
+    returns the spring only where it does not change much.
     """
     u, first = t, R.a + more
     while u > shortest:
@@ -394,14 +394,14 @@ def start_of(e, i, top, R, h, G, T, arms):
 
 
 @_inline
-def rub_disc(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, look):
+def rub_disc(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tools, look):
     """Spring i in contact for a time t from `begun` in the step on, as rub_line of line.py."""
     h, G, R = tools.times.h, glassy(arms), cubic(held_force(s, i, z[0], z[1], t, k, T, tools, arms), t)
     if look is not None:
         of_pressing(look.sums, w, s, i, z[0], z[1], t, h, look.nodes, T, modes, arms)
     pressed, pressed_moment = hold(s, i, z[0], z[1], t, k, T, tools, arms)
-    gone, zeros, mode, n, vel, top = 0.0, 0, BEGINS, 0.0j, 0.0, Way(x[0], x[1])
-    area, moment, stuck, when = 0.0j, 0.0j, 0.0, 0.0
+    gone, zeros, mode, n, vel, top = 0.0, 0, BEGINS, 0.0j, 0.0, Parabola(x[0], x[1])
+    area, moment, stuck, stuck_moment = 0.0j, 0.0j, 0.0, 0.0
     for _ in range(MOST_EVENTS):
         left, now = t - gone, begun + gone
         start = start_of(e, i, top, R, h, G, T, arms)
@@ -417,7 +417,7 @@ def rub_disc(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
             fill(u, None, arms, tools.times, PART)
         if mode == STICK:
             of = sticks(e, i, w, top, R, u, k, tol, T, modes, arms, tools, look)
-            stuck, when = stuck + of.t, when + of.t * (now + 0.5 * of.t)
+            stuck, stuck_moment = stuck + of.t, stuck_moment + of.t * (now + 0.5 * of.t)
         else:  # after two stretches without length slip and stick hold alike
             of = slips(e, i, w, top, start, R, u, k, zeros > 1, G, T, modes, arms, tools, look)
         area, moment = area + of.area, moment + now * of.area + of.moment
@@ -427,7 +427,7 @@ def rub_disc(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
             break
         zeros = 0 if of.t > 0.0 else zeros + 1
         gone += of.t
-        top, R = Way(top.p + 2.0 * of.t * top.q, top.q), since(R, of.t)
+        top, R = Parabola(top.p + 2.0 * of.t * top.q, top.q), cubic_later(R, of.t)
         if not of.lasts:
             mode = STICK if mode == SLIP else SLIP
-    return Friction(mode, n, vel, area, moment, stuck, when, pressed, begun * pressed + pressed_moment)
+    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, begun * pressed + pressed_moment)

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import phi_of
-from mdr.spring.path import FAST, LENT, along, at, since, size_of, slope
+from mdr.spring.path import FAST, LENT, along, at, cubic_later, size_of, slope
 from mdr.tools.jit import inner
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
@@ -202,7 +202,7 @@ def yielded(x, f_0, f_1, area, moment, t, T, phi):
 
 @_inline
 def is_short(v, rho, t):
-    """Whether a way is short beside the leash."""
+    """True for a way that is short beside the leash."""
     return along(v, v) * (t * t) < SHORT * (rho * rho)
 
 
@@ -217,7 +217,7 @@ def slides(n, vel, t, v, R, T, G, midway):
     for half in range(1 if short and not midway else 0, 2):
         u, n_1, l_1 = t if half == 1 and short else 0.5 * t, n, vel
         if half == 1 and not short:
-            n_1, l_1, v, R = n_m, l_m, since(v, u), since(R, u)
+            n_1, l_1, v, R = n_m, l_m, cubic_later(v, u), cubic_later(R, u)
         phi = phi_of(G * u / T) if T > 0.0 else NO_PHI
         n_1, l_1 = slid(n_1, l_1, u, v, R, T, G, phi, T > 0.0, short, False)
         if half == 0:

@@ -100,7 +100,7 @@ def stored(x, i, arms):
 
 @_inline
 def lost_on(nodes, x, i, p, q, T, arms):
-    """What dashpot and arms of x[:, i] turn into heat over a time in which it is held on p t + q t²."""
+    """Heat of dashpot and arms of x[:, i] over a time in which it is held on p t + q t²."""
     lost = 0.0
     for g in range(nodes.u.size):
         rate = p + 2.0 * q * nodes.u[g]
@@ -139,7 +139,7 @@ def of_pressing(sums, w, s, i, z_1, z_2, t, h, whole, T, modes, arms):
 
 @_own
 def lost_on_parabola(x, i, p, q, t, h, whole, T, modes, arms):
-    """What dashpot and arms of x[:, i] turn into heat over a time t in which it is held on p t + q t²."""
+    """Heat of dashpot and arms of x[:, i] over a time t in which it is held on p t + q t²."""
     return lost_on(whole if t == h else nodes_of(t, modes, arms), x, i, p, q, T, arms)
 
 

@@ -31,7 +31,7 @@ OF_SERIES = np.array([1 / factorial(k) for k in range(21, 3, -1)])  #: of phi_4,
 
 
 class Modes(NamedTuple):
-    """How a spring relaxes that is left alone."""
+    """Relaxation modes of a spring that is left alone."""
 
     mu: Array  #: (K,) rates
     out: Array  #: (1 + J, K) from modes to state

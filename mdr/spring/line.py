@@ -27,10 +27,10 @@ BEGINS = -1  #: the mode is still to be found
 
 
 @_inner
-def slip_velocity(mode, s, e, i, share, z_1, x_1, off, modes):
+def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
     """Velocity over the plane of a spring in contact, below zero in slip back, at a share of the step, where the
-    parabolas have the rates z_1 and x_1. The true rates differ from theirs by `off` at both ends of the step, and are
-    those of a cubic in between.
+    parabolas have the rates z_1 and x_1. The true rates differ from theirs by `rate_miss` at both ends of the step, and
+    are those of a cubic in between.
     """
     if mode == STICK:
         return 0.0
@@ -41,18 +41,18 @@ def slip_velocity(mode, s, e, i, share, z_1, x_1, off, modes):
             for j in range(s.shape[0]):
                 m += modes.into[k, j] * (s[j, i] - sign * e[j, i])
             rate -= modes.mu[k] * modes.out[0, k] * m
-    return sign * (sign * (x_1 + bend * off[1]) - (z_1 + bend * off[0]) + rate)
+    return sign * (sign * (x_1 + bend * rate_miss[1]) - (z_1 + bend * rate_miss[0]) + rate)
 
 
 @_inline
-def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, look):
+def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tools, look):
     """Spring i in contact for a time t from `begun` in the step on; s and e are updated.
 
     z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that t has. tol: rounding of a length.
-    off: as of slip_velocity. look: None or Look.
+    rate_miss: as of slip_velocity. look: None or Look.
     """
     h, gone, mode = tools.times.h, 0.0, BEGINS
-    area = moment = stuck = when = pressed = pressed_moment = 0.0
+    area = moment = stuck = stuck_moment = pressed = pressed_moment = 0.0
     for _ in range(MOST_EVENTS):
         u, s_0, e_0 = t - gone, s[0, i], e[0, i]
         (z_1, z_2), (x_1, x_2) = (z[0] + 2.0 * z[1] * gone, z[1]), (x[0] + 2.0 * x[1] * gone, x[1])
@@ -65,7 +65,7 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
             if forward and (ahead.v_0 <= behind.v_0 or not backward):
                 mode = SLIP
             if look is not None and begun > 0.0:
-                vel = slip_velocity(mode, s, e, i, begun / h, z_1, x_1, off, modes)
+                vel = slip_velocity(mode, s, e, i, begun / h, z_1, x_1, rate_miss, modes)
                 look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], vel)
         # when the mode ends, and what follows
         until, after, sign, lag, fallen = NEVER, STICK, -1.0 if mode == SLIP_BACK else 1.0, 0.0, 0.0
@@ -107,7 +107,7 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
         pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B
         if mode == STICK:
             A, B = hold(e, i, x_1, x_2, u, k, T, tools, arms)
-            stuck, when = stuck + u, when + u * (begun + gone + 0.5 * u)
+            stuck, stuck_moment = stuck + u, stuck_moment + u * (begun + gone + 0.5 * u)
         elif arms is not None:
             for j in range(s.shape[0]):
                 e[j, i] = sign * (s[j, i] - of_modes(j, k, tools.room.modes, tools.times, modes))
@@ -122,6 +122,8 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, off, T, modes, arms, tools, loo
         fill(t - gone, modes, arms, tools.times, PART)
     vel = 0.0
     if look is not None:
-        vel = slip_velocity(mode, s, e, i, (begun + t) / h, z[0] + 2.0 * z[1] * t, x[0] + 2.0 * x[1] * t, off, modes)
+        vel = slip_velocity(
+            mode, s, e, i, (begun + t) / h, z[0] + 2.0 * z[1] * t, x[0] + 2.0 * x[1] * t, rate_miss, modes
+        )
     n = -1.0 if mode == SLIP_BACK else 1.0
-    return Friction(mode, n, vel, area, moment, stuck, when, pressed, pressed_moment)
+    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, pressed_moment)

@@ -44,7 +44,7 @@ def end_force(x, i, rate, T, arms):
 
 @_inline
 def arms_ends(x, i, p, q, t, k, tools, arms):
-    """What the arms of x[:, i] add to its force."""
+    """Part of the arms of x[:, i] in its force."""
     of, rho, rate = tools.times.arms[k], arms.rho, arms.rate
     v_0 = d_0 = v_1 = d_1 = 0.0 * p
     low = high = 0.0

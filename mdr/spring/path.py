@@ -61,13 +61,13 @@ def plus(f, sign, g):
 
 @_inline
 def below(f, tol):
-    """Whether a function is below zero as its time begins, or falls from there."""
+    """True for a function below zero as its time begins, or at zero and falling."""
     return f.v_0 < -tol or (f.v_0 <= tol and f.d_0 < 0.0)
 
 
 @_inline
 def stays(f, t, tol):
-    """Whether f, which begins above -tol, surely stays there; False means that it is not known.
+    """True if f, which begins above -tol, surely stays there; False means that it is not known.
 
     Convex (low >= 0): it lies above the crossing of the tangents at its ends. Concave (high <= 0): above its values at
     the ends. Else: above the higher of two parabolas of the curvature low, from either end.
@@ -136,8 +136,8 @@ def slope(f, t):
 
 
 @_inline
-def since(f, t):
-    """The same cubic from a time on."""
+def cubic_later(f, t):
+    """A cubic, its time counted from t on."""
     return Cubic(at(f, t), slope(f, t), f.c + 3.0 * f.d * t, f.d)
 
 

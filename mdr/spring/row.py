@@ -47,8 +47,10 @@ def row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look):
                 else:
                     others[n] = i
                     n += 1
-            who = others[:n]
-            return both(of, one_row(rub_disc, who, s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look))
+            indices = others[:n]
+            return both(
+                of, one_row(rub_disc, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
+            )
     return one_row(rub_disc, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
 
 
@@ -74,7 +76,7 @@ def _(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
 def both(a, b):
     """The answer of two rows together."""
     force = a.area + b.area, a.moment + b.moment, a.end + b.end
-    stick = a.stuck + b.stuck, a.when + b.when, a.sticking + b.sticking, a.back + b.back
+    stick = a.stuck + b.stuck, a.stuck_moment + b.stuck_moment, a.sticking + b.sticking, a.back + b.back
     normal = a.normal_area + b.normal_area, a.normal_moment + b.normal_moment, a.normal_end + b.normal_end
     return Answer(*force, *stick, *normal, a.pressed + b.pressed)
 

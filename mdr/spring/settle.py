@@ -33,7 +33,9 @@ class NormalPeriod:
     compression: Array  #: (n_t,) sum of w s at the start of each step
     flight: Array  #: (n_t,) time to the first touch of a step that begins without one and ends in contact; else zero
     force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
-    since: Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
+    pressed_for: (
+        Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
+    )
 
     @cached_property
     def mean(self) -> float:
@@ -50,7 +52,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     plain change is halved for good, and its past is forgotten. Of the last moves of a spring the combination is taken
     of which least is left (Anderson's method, each spring by itself), as a spring that loses contact moves by less.
 
-    each: whether force and since are asked for.
+    each: whether force and pressed_for are asked for.
     """
     n_t, n = z.size - 1, gap.size
     tools = tools_for(law, 2 * np.pi / n_t)
@@ -60,8 +62,8 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     sums = np.empty((5, n_t))
     none = np.empty((0, n))
 
-    def pass_through(x: Array, who: NDArray[np.int64], force: Array, since: Array) -> None:
-        period(x, gap[who], w[who], z, z_dot, *law, tools, sums, force, since)
+    def pass_through(x: Array, who: NDArray[np.int64], force: Array, pressed_for: Array) -> None:
+        period(x, gap[who], w[who], z, z_dot, *law, tools, sums, force, pressed_for)
 
     memory, roots = min(rho.size, MEMORY), np.sqrt(np.append(1.0, rho))[:, None]
     forgotten = np.append(1.0, -np.expm1(-2 * np.pi * rate))[:, None]
@@ -92,14 +94,14 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     if rho.size and not change.max(initial=0) <= NOT_PERIODIC:
         return None
     every = np.arange(n)
-    force, since = np.empty((2, n_t if each else 0, n))
-    pass_through(s.copy(), every, force, since)
+    force, pressed_for = np.empty((2, n_t if each else 0, n))
+    pass_through(s.copy(), every, force, pressed_for)
     area, moment, end, compression, flight = sums
-    return NormalPeriod(s, area, moment, end, compression, flight, force, since)
+    return NormalPeriod(s, area, moment, end, compression, flight, force, pressed_for)
 
 
 @compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # type: ignore[no-untyped-def]
+def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, pressed_for):  # type: ignore[no-untyped-def]
     """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (5, n_t)."""
     h, n = tools.times.h, gap.size
     each = Each(np.empty(n), np.empty(n), np.empty(n))
@@ -112,10 +114,10 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, since):  # t
             flies = flies and s[0, i] > z[k] - gap[i]
         of = press(s, gap, w, path, z_dot[k + 1], T, modes, arms, tools, each)
         if force.shape[0] > 0:
-            force[k], since[k] = each.f_z, each.since
+            force[k], pressed_for[k] = each.f_z, each.pressed_for
         pressed, flight = 0.0, 0.0
         for i in range(n):
-            pressed = max(pressed, each.since[i])
+            pressed = max(pressed, each.pressed_for[i])
         if flies and pressed > 0.0:
             flight = h * max(1.0 - pressed - EARLY, 0.0)
         sums[0, k], sums[1, k], sums[2, k] = of.normal_area, of.normal_moment, of.normal_end

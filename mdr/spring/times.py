@@ -41,7 +41,7 @@ class Tools(NamedTuple):
 
 @compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 def fill(t, modes, arms, times, k):
-    """What a time t makes of arms and modes: of x_j, p and q the arm after it takes the parts arms[k, 0:3], the area of
+    """Fill row k of Times for a time t: of x_j, p and q the arm after it takes the parts arms[k, 0:3], the area of
     its force over the time arms[k, 3:6], and its moment arms[k, 6:9].
     """
     if arms is not None:

@@ -85,7 +85,7 @@ def whole(s, e, gap, w, path, h, T, modes, each, made):
         pressed_moment += bears * h * h * (0.5 * R.a + h * (R.b / 3.0 + 0.25 * h * R.c))
         pressed_end += bears * R_1
         if each is not None:
-            each.since[i], each.f_z[i] = (1.0, R_1) if sticks | slips else (0.0, 0.0)
+            each.pressed_for[i], each.f_z[i] = (1.0, R_1) if sticks | slips else (0.0, 0.0)
             each.f[i] = f if sticks else f_1[0] if slips else 0.0j
         e_1 = scaled(R_1 + T * l_1, n_1) - scaled(T, top)
         if viscous:

@@ -128,7 +128,7 @@ class Row:
         s, each = self.s.copy(), Each(*np.empty((3, self.gap.size)))
         rate, tools = self.from_then(self.h).z_1, tools_for(self.law, self.h)
         of = press(s, self.gap, self.w, self.path, rate, *self.law, tools, each)
-        return s, of.normal_area, of.normal_moment, each.since
+        return s, of.normal_area, of.normal_moment, each.pressed_for
 
     def by_tiny_steps(self, n, limit=1.0, turned=1.0, touch=0.0, dashpot=1.0):
         """e, s, area and moment of the force of each spring, and area of the normal force.

@@ -32,7 +32,7 @@ def test_it_comes_back_after_a_period(material):
     period(s, GAP, W, *z, *law, tools_for(law, 2 * np.pi / 64), again, none, none)
     assert_allclose(s, found.s, rtol=0, atol=1e-12 * np.abs(found.s).max())
     assert_allclose(again, known, rtol=0, atol=1e-11 * np.abs(known).max())
-    pressed = found.since > 0
+    pressed = found.pressed_for > 0
     assert np.all(found.force[~pressed] == 0)
     assert np.all(found.force >= 0)
     assert pressed[:, 0].any()
@@ -50,7 +50,7 @@ def test_springs_that_keep_contact_answer_with_the_dynamic_modulus(material):
     assert_allclose(found.force @ w, exact[1:], rtol=0, atol=abs(response) * h**2 / 12)
     areas = (response / 1j * np.diff(np.exp(1j * t))).real - w @ gap * h
     assert_allclose(found.area, areas, rtol=0, atol=abs(response) * h**4 / 12)
-    assert np.all(found.since == 1)
+    assert np.all(found.pressed_for == 1)
 
 
 def test_stiff_arms_that_hardly_relax_have_their_mean_at_zero():

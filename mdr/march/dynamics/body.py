@@ -142,7 +142,9 @@ def harmonics_of(
 def light_harmonics_of(
     body: Body, areas: NDArray[np.complex128], ends: NDArray[np.complex128]
 ) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
-    """The same of a light body, by harmonics of areas and of the force at the end of each step."""
+    """Periodic motion of a light body, as of `harmonics_of`, by harmonics of areas and of the force at the end of each
+    step.
+    """
     n, h, (M, C, K) = areas.size, body.h, (body.M, body.C, body.K)
     turn = np.exp(1j * h * np.arange(n))
     # y' at the end is (y_1 - y_0)/h + q h, of y_0 and the curvature q

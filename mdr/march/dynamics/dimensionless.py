@@ -31,7 +31,7 @@ RINGING_PASSES = 20  #: of the iteration for the oscillation of a body on spring
 
 @dataclass(frozen=True)
 class Units:
-    """What lengths, stiffnesses and times are divided by."""
+    """Units of the scaled form, in SI."""
 
     length_x: float  #: tangential: mu_0 kappa du_z [m]
     length_z: float  #: normal: du_z [m]
@@ -67,7 +67,7 @@ class Way:
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """What is imposed over one period of n_steps steps: arrays (n_steps + 1,), both ends included."""
+    """Imposed motion over one period of n_steps steps: arrays (n_steps + 1,), both ends included."""
 
     z: Array  #: normal motion
     z_dot: Array  #: its rate
@@ -99,7 +99,7 @@ class Drive:
 
     @classmethod
     def of(cls, case: SlidingContact, length_x: float, steps: int) -> Drive:
-        """What moves a contact."""
+        """The imposed motion of a contact."""
         ways = [(case.way, case.shake_harmonics)]
         if case.moves_across:
             ways += [(case.way_across, case.harmonics_across)]
@@ -118,7 +118,7 @@ class Drive:
 
 @dataclass(frozen=True, eq=False)
 class Slow:
-    """What arms do that a period does not tell from springs, which have relaxed about the mean of their spring.
+    """Slow arms: a period does not tell them from springs, which have relaxed about the mean of their spring.
 
     Such an arm bears rho (s - m), m the mean of s over a period; and so across. Beside the spring it is a stiffer one,
     1 + rho, of a compression s - rho m/(1 + rho), under which the surface lies as much deeper; and of an extension that
@@ -234,9 +234,20 @@ def fast_ratio(case: SlidingContact) -> float:
     """omega_1/omega of the body on the fully pressed contact; infinite without mass, zero for a rigid pull."""
     if case.pull.is_rigid:
         return 0.0
+    return max(_ringing(M, K, case.rheology) for M, K in _bodies(case))
+
+
+@remembered(maxsize=64)
+def stopping_rate(case: SlidingContact) -> float:
+    """Rate over omega at which the dashpots of the fully pressed contact stop the body; infinite without mass."""
+    return 0.0 if case.pull.is_rigid else max(case.T / M if M else np.inf for M, _ in _bodies(case))
+
+
+def _bodies(case: SlidingContact) -> list[tuple[float, float]]:
+    """Mass and stiffness, in scaled form on the fully pressed contact, in each direction in which a body moves."""
     stiffness = float(case.indenter.stiffness(case.u_z_max, case.material.G_star))
     groups = [_body_groups(case, stiffness, across) for across in (False, True)][: 1 + case.moves_across]
-    return max(_ringing(M, K, case.rheology) for M, _, K in groups if np.isfinite(K))
+    return [(M, K) for M, _, K in groups if np.isfinite(K)]
 
 
 def _ringing(M: float, K: float, rheology: Rheology) -> float:

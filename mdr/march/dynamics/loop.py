@@ -28,10 +28,14 @@ _inner = inner(error_model="numpy", fastmath=FAST, **OWN)
 _lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
-SHORTEST = 1e-6  #: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
-MOST_TURNS = 32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
+SHORTEST_PART = (
+    1e-6  #: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
+)
+MOST_ITERATIONS = (
+    32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
+)
 MOST_PLACES = 99  #: in the search for a zero of one unknown
-CLOSE = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
+BALANCED = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
 
 
 class Motion(NamedTuple):
@@ -67,7 +71,7 @@ class Here(NamedTuple):
 
 
 class Last(NamedTuple):
-    """What springs did at the end of the step before."""
+    """Modes of the springs at the end of the step before."""
 
     sticking: float  #: share of them that stuck
     back: float  #: share that slipped back
@@ -80,7 +84,7 @@ class Springs(NamedTuple):
     w: Array  #: (n,) share of each spring in the stiffness
 
 
-class Moves(NamedTuple):
+class BodyMotion(NamedTuple):
     """The body in one direction over a step."""
 
     y: float  #: its motion relative to the pull, at the end
@@ -91,17 +95,19 @@ class Moves(NamedTuple):
 
 
 class Trace(NamedTuple):
-    """What a march leaves of each of its steps, numbers or vectors."""
+    """Record of each step of a march, numbers or vectors."""
 
     area: Array  #: (n_steps,) of the tangential force
     moment: Array  #: (n_steps,) of it
     y: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
     rate: Array  #: (n_steps,) its rate there
-    way: Array  #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts; if the first has no length, no more is set
+    parts: (
+        Array  #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts; if the first has no length, no more is set
+    )
 
 
 class Seen(NamedTuple):
-    """What a close look at a period fills, of n_t steps and n springs; f and e are vectors in the plane."""
+    """Record that a close look at a period fills, of n_t steps and n springs; f and e are vectors in the plane."""
 
     nodes: Nodes  #: over a step
     sums: Array  #: (N_SUMS,)
@@ -138,14 +144,14 @@ def path_of(motion, k, h):
 
 @_inline
 def later(path, t):
-    """The same motion from a time in the step on."""
+    """A motion, its time counted from t on."""
     z_0 = path.z_0 + t * (path.z_1 + t * path.z_2)
     return Path(z_0, path.z_1 + 2.0 * path.z_2 * t, path.z_2, path.x_1 + 2.0 * path.x_2 * t, path.x_2)
 
 
 @_jit
-def march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_steps, trace):
-    """March n_steps from the begin of a period; e, s (1 + J, n) and held (N_BODY,) are updated in place.
+def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, n_steps, trace):
+    """March n_steps from the begin of a period; e, s (1 + J, n) and of_body (N_BODY,) are updated in place.
 
     body, side: Body along the pull and across it. Along a line side is None, and body too if it is rigid; in the plane
     neither is. slip: the FullSlipForce of a body along a line, else None; flight (n_t,): of a light one there, time to
@@ -157,7 +163,7 @@ def march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_s
     room = np.empty_like(e), np.empty_like(s), excess
     for j in range(n_steps):
         k = j % n_t
-        trace.way[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
+        trace.parts[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
         if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
             excess[:] = 0.0
@@ -166,15 +172,15 @@ def march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_s
             here = Here(*here[:4], slip.area[k], slip.moment[k], slip.end[k])
         if flight is not None:
             area, moment, last, found = follow(
-                e, s, room, held, last, body, springs, here, slip, flight, flight[k], law, tools, j, trace
+                e, s, room, of_body, last, body, springs, here, slip, flight, flight[k], law, tools, j, trace
             )
         else:
             path, area, moment, last, found = stepped(
-                e, s, room, held, last, body, side, springs, here, slip, flight, law, tools
+                e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools
             )
             note(trace, j, 1, h, path)
         solved = solved and found
-        trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, held[Y], held[RATE]
+        trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, of_body[Y], of_body[RATE]
     return solved
 
 
@@ -186,34 +192,34 @@ def all_springs(s, e, springs, path, z_dot, x_dot, law, tools, excess, look):
 
 
 @_lent
-def stepped(e, s, room, held, last, body, side, springs, here, slip, flight, law, tools):
+def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
     """A step of springs and body: it moves as their force makes it, and they move with it.
 
-    Newton's method on its motion at the end, by the stiffness of what sticks. Along a line turn 0 takes the force that
-    the springs have if none changes its mode (`last`), which most often is the true one; and where other springs stick
-    under a light body at every turn, `enclosed` finds them.
+    Newton's method on its motion at the end, by the stiffness of what sticks. Along a line iteration 0 takes the force
+    that the springs have if none changes its mode (`last`), which most often is the true one; and where other springs
+    stick under a light body at every iteration, `enclosed` finds them.
 
     room: for e, s and the excess of `row`. flight: here it only tells a light body along a line. The others as of
     `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and whether this
-    was solved; e, s, held are updated.
+    was solved; e, s, of_body are updated.
     """
     e_0, s_0, excess = room
     h, path, found = tools.times.h, here.path, False
     if body is None:
         of = all_springs(s, e, springs, path, here.z_dot, here.x_dot, law, tools, None, None)
         return path, of.area, of.moment, last, True
-    y_0, rate_0, fresh = held[Y], held[RATE], True
-    ahead, aside = begins(y_0.real, rate_0.real, body, h), Moves(0.0, 0.0, 0.0, 0.0, 0.0)
+    y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
+    ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
     if side is not None:
-        aside = begins(y_0.imag, rate_0.imag, side, h)
+        aside = motion_on(y_0.imag, rate_0.imag, side, h)
     area = moment = 0.0 * e[0, 0]
     put(e, e_0)
     put(s, s_0)
-    for turn in range(MOST_TURNS + 1):
-        if flight is not None and turn == MOST_TURNS:
-            ahead = enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools)
+    for iteration in range(MOST_ITERATIONS + 1):
+        if flight is not None and iteration == MOST_ITERATIONS:
+            ahead = enclosed(e, s, e_0, s_0, of_body, body, springs, here, law, tools)
         path, rate = moved(here.path, ahead, aside, side)
-        if slip is not None and turn == 0:
+        if slip is not None and iteration == 0:
             area, moment, end = as_they_are(
                 path, last.sticking, last.back, law.T, law.arms, tools, excess, here.z_dot, here.x_dot + rate
             )
@@ -225,39 +231,39 @@ def stepped(e, s, room, held, last, body, side, springs, here, slip, flight, law
                 put(s_0, s)
             of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, excess, None)
             fresh, last = False, Last(of.sticking, of.back)
-            area, moment, end, stick = of.area, of.moment, of.end, (of.stuck, of.when, of.sticking)
-        ahead, found = better(
+            area, moment, end, stick = of.area, of.moment, of.end, (of.stuck, of.stuck_moment, of.sticking)
+        ahead, found = newton_step(
             ahead, y_0.real, rate_0.real, area.real, moment.real, end.real, stick, here.v, body, law, h
         )
         if side is not None:
-            aside, other = better(
+            aside, other = newton_step(
                 aside, y_0.imag, rate_0.imag, area.imag, moment.imag, end.imag, stick, here.v, side, law, h
             )
             found = found and other
         if found and not fresh:
             break
-    held[Y], held[RATE] = ahead.y, ahead.rate
+    of_body[Y], of_body[RATE] = ahead.y, ahead.rate
     if side is not None:
-        held[Y], held[RATE] = complex(ahead.y, aside.y), complex(ahead.rate, aside.rate)
+        of_body[Y], of_body[RATE] = complex(ahead.y, aside.y), complex(ahead.rate, aside.rate)
     return path, area, moment, last, found
 
 
 @_inline
-def begins(y_0, rate_0, body, h):
-    """How a body moves that goes on as it is."""
-    return moves(y_0 + h * rate_0, 0.0 if body.light else rate_0, y_0, rate_0, body, h)
+def motion_on(y_0, rate_0, body, h):
+    """Motion of a body that keeps its velocity: the first guess."""
+    return motion_to(y_0 + h * rate_0, 0.0 if body.light else rate_0, y_0, rate_0, body, h)
 
 
 @_inline
-def moves(y, q, y_0, rate_0, body, h):
-    """How a body moves from y_0 to y."""
+def motion_to(y, q, y_0, rate_0, body, h):
+    """Motion of a body from y_0 to y."""
     dy = y - y_0
     b_2, rate = (q - rate_0) / (2.0 * h), q
     if body.light:
         b_2, rate = q / (h * h), (dy + q) / h
     if body.rigid:
-        return Moves(0.0, 0.0, 0.0, 0.0, 0.0)
-    return Moves(y, q, rate, dy / h - b_2 * h, b_2)
+        return BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
+    return BodyMotion(y, q, rate, dy / h - b_2 * h, b_2)
 
 
 @_inline
@@ -270,27 +276,27 @@ def moved(path, ahead, aside, side):
 
 
 @_inline
-def better(one, y_0, rate_0, area, moment, end, stick, v, body, law, h):
+def newton_step(one, y_0, rate_0, area, moment, end, stick, v, body, law, h):
     """A body nearer to where these forces take it, and whether it was there."""
-    stuck, when, sticking = stick
+    stuck, stuck_moment, sticking = stick
     if body.rigid:
         return one, True
     if body.light:
-        impulse, force, close = not_balanced(one.y, one.q, one.rate, y_0, rate_0, area, end, body, law, h)
-        dy, dq = corrected_balance(impulse, force, stuck, when, sticking, body, law, h)
+        impulse, force, close = residual_light(one.y, one.q, one.rate, y_0, rate_0, area, end, body, law, h)
+        dy, dq = newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h)
         is_close = abs(impulse) + abs(force) <= close
     else:
-        off, off_rate, is_close = off_way(one.y, one.q, y_0, rate_0, area, moment, v, body, h)
-        dy, dq = corrected_way(off, off_rate, stuck / h, body)
+        off, off_rate, is_close = residual_heavy(one.y, one.q, y_0, rate_0, area, moment, v, body, h)
+        dy, dq = newton_heavy(off, off_rate, stuck / h, body)
     if is_close:
         return one, True
-    return moves(one.y - dy, one.q - dq, y_0, rate_0, body, h), False
+    return motion_to(one.y - dy, one.q - dq, y_0, rate_0, body, h), False
 
 
 @_inline
-def off_way(y, rate, y_0, rate_0, area, moment, v, body, h):
-    """How far a body with mass is from where area and moment of the force take it, in y and its rate; whether that is
-    nothing.
+def residual_heavy(y, rate, y_0, rate_0, area, moment, v, body, h):
+    """Residual of a body with mass: its distance, in y and rate, from where area and moment of the force take it; and
+    whether that is nothing.
     """
     free = body.free
     push = body.area[0] * area + body.moment[0] * moment
@@ -298,12 +304,12 @@ def off_way(y, rate, y_0, rate_0, area, moment, v, body, h):
     off = y - (free[0][0] * y_0 + free[0][1] * rate_0) + push
     off_rate = rate - (free[1][0] * y_0 + free[1][1] * rate_0) + push_rate
     least = ROUNDING * (abs(y) + h * (abs(rate) + abs(v)))
-    return off, off_rate, abs(off) + h * abs(off_rate) <= CLOSE * (abs(push) + h * abs(push_rate)) + least
+    return off, off_rate, abs(off) + h * abs(off_rate) <= BALANCED * (abs(push) + h * abs(push_rate)) + least
 
 
 @_inline
-def corrected_way(off, off_rate, share, body):
-    """What to take from y and its rate, by the stiffness of the share of springs that stick."""
+def newton_heavy(off, off_rate, share, body):
+    """Newton correction of a body with mass, to be taken from y and rate, by the stiffness of what sticks."""
     a, b = 1.0 + share * body.stuck[0][0], share * body.stuck[0][1]
     c, d = share * body.stuck[1][0], 1.0 + share * body.stuck[1][1]
     det = a * d - b * c
@@ -311,7 +317,7 @@ def corrected_way(off, off_rate, share, body):
 
 
 @_inner
-def follow(e, s, room, held, last, body, springs, here, slip, flight, flown, law, tools, j, trace):
+def follow(e, s, room, of_body, last, body, springs, here, slip, flight, flown, law, tools, j, trace):
     """Step j of a light body, in two parts where the first spring touches within it, after the time `flown`: a touch
     changes the velocity of the body at once.
 
@@ -319,7 +325,7 @@ def follow(e, s, room, held, last, body, springs, here, slip, flight, flown, law
     springs do at the end and whether all was solved.
     """
     h, area, moment, solved, begin, first = tools.times.h, 0.0, 0.0, True, 0.0, 1
-    if SHORTEST * h < flown < (1.0 - SHORTEST) * h:
+    if SHORTEST_PART * h < flown < (1.0 - SHORTEST_PART) * h:
         begin, first = flown, 0
     rest = later(here.path, begin)
     for part in range(first, 2):
@@ -330,7 +336,7 @@ def follow(e, s, room, held, last, body, springs, here, slip, flight, flown, law
         elif first == 0:
             now = tools_of(h - begin, law.modes, law.arms, tools)
         path, of_area, of_moment, last, found = stepped(
-            e, s, room, held, last, body, None, springs, one, slip, flight, law, now
+            e, s, room, of_body, last, body, None, springs, one, slip, flight, law, now
         )
         note(trace, j, part, now.times.h, path)
         later_by = 0.0 if part == 0 else begin
@@ -339,39 +345,39 @@ def follow(e, s, room, held, last, body, springs, here, slip, flight, flown, law
 
 
 @_inline
-def not_balanced(y, u, rate, y_0, rate_0, area, end, body, law, h):
-    """What is left of impulse (over h) and force if a light body moves to y with u, under the area of a force and the
-    force at the end; and how little of them is none.
+def residual_light(y, q, rate, y_0, rate_0, area, end, body, law, h):
+    """Residual of a light body that moves to y with q: impulse (over h) and force that are left, under the area of a
+    force and the force at the end; and how little of them counts as none.
     """
     M, C, K = body.M, body.C, body.K
-    impulse = M * (rate - rate_0) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - u / 6.0) + area / h
-    force = 2.0 * M * u / (h * h) + C * rate + K * y + end
+    impulse = M * (rate - rate_0) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - q / 6.0) + area / h
+    force = 2.0 * M * q / (h * h) + C * rate + K * y + end
     size, slope = abs(K * y) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
-    return impulse, force, CLOSE * (size + slope * (abs(y - y_0) + abs(u))) + ROUNDING * slope * abs(y)
+    return impulse, force, BALANCED * (size + slope * (abs(y - y_0) + abs(q))) + ROUNDING * slope * abs(y)
 
 
 @_inline
-def corrected_balance(impulse, force, stuck, when, sticking, body, law, h):
-    """What to take from y and u of a light body, by the stiffness of what sticks."""
+def newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h):
+    """Newton correction of a light body, to be taken from y and q, by the stiffness of what sticks."""
     M, C, K, T, stiff, share = body.M, body.C, body.K, law.T, glassy(law.arms), stuck / h
     a = M / (h * h) + C / h + 0.5 * (K + share * stiff) + T * share / h
-    b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * when / h - stuck) / (h * h)
+    b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * stuck_moment / h - stuck) / (h * h)
     c, d = C / h + K + sticking * (stiff + T / h), 2.0 * M / (h * h) + (C + sticking * T) / h
     det = a * d - b * c
     return (d * impulse - b * force) / det, (a * force - c * impulse) / det
 
 
 @_lent
-def left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools):
-    """What is left of impulse (over h) and force if a light body moves to y with u; how little of them is none; and how
-    it moves. e, s are updated.
+def residual_at(y, q, e, s, e_0, s_0, of_body, body, springs, here, law, tools):
+    """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
+    motion.
     """
     put(e_0, e)
     put(s_0, s)
-    one = moves(y, u, held[Y], held[RATE], body, tools.times.h)
+    one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
     of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, None, None)
-    left = not_balanced(y, u, rate, held[Y], held[RATE], of.area, of.end, body, law, tools.times.h)
+    left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 
 
@@ -382,22 +388,22 @@ def steepest(body, law, h):
 
 
 @_inner
-def enclosed(e, s, e_0, s_0, held, body, springs, here, law, tools):
+def enclosed(e, s, e_0, s_0, of_body, body, springs, here, law, tools):
     """The step of a light body by two searches, one within the other: the force at the end rises with y, and
-    where it is zero, the impulse falls as u grows.
+    where it is zero, the impulse falls as q grows.
     """
-    y, u, slope = held[Y], 0.0, steepest(body, law, tools.times.h)
-    ends_y, ends_u = np.empty(4), np.full(4, np.nan)
+    y, q, slope = of_body[Y], 0.0, steepest(body, law, tools.times.h)
+    ends_y, ends_q = np.empty(4), np.full(4, np.nan)
     for _ in range(MOST_PLACES):
         ends_y[:] = np.nan
         for _ in range(MOST_PLACES):
-            (impulse, force, close), one = left_of(y, u, e, s, e_0, s_0, held, body, springs, here, law, tools)
+            (impulse, force, close), one = residual_at(y, q, e, s, e_0, s_0, of_body, body, springs, here, law, tools)
             if abs(force) <= 0.1 * close:
                 break
             y = next_place(y, force, slope, ends_y)
         if abs(impulse) <= 0.9 * close:
             break
-        u = next_place(u, -impulse, slope, ends_u)
+        q = next_place(q, -impulse, slope, ends_q)
     return one
 
 
@@ -423,7 +429,7 @@ def next_place(x, f, most, ends):
 @_inline
 def note(trace, j, part, t, path):
     """Leave the way of the top over a part, 0 or 1, of step j."""
-    trace.way[j, part, 0], trace.way[j, part, 1], trace.way[j, part, 2] = t, path.x_1, path.x_2
+    trace.parts[j, part, 0], trace.parts[j, part, 1], trace.parts[j, part, 2] = t, path.x_1, path.x_2
 
 
 @_jit
@@ -441,7 +447,7 @@ def look(e, s, springs, motion, law, tools, trace, seen):
     for k in range(motion.z.size - 1):
         path = path_of(motion, k, h)
         for part in range(2):
-            t, x_1, x_2 = trace.way[k, part, 0].real, trace.way[k, part, 1], trace.way[k, part, 2]
+            t, x_1, x_2 = trace.parts[k, part, 0].real, trace.parts[k, part, 1], trace.parts[k, part, 2]
             if t == 0.0:
                 continue
             now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2)

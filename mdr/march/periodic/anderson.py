@@ -16,7 +16,8 @@ from mdr.tools.jit import compiled
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 
 
-PERIODS, KEPT, SINCE = range(3)  # counts of a search: periods so far, those combined now, the one that moved least
+# counts of a search: periods so far, those combined now, the one that moved least, the last ones with an unsolved step
+PERIODS, KEPT, SINCE, UNSOLVED = range(4)
 LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
 
 
@@ -32,11 +33,11 @@ class Search(NamedTuple):
     best: Array  #: (n_x,) the image that moved least
     d_image: Array  #: (memory, n_x) from image to image, oldest first
     d_moved: Array  #: (memory, n_x) from move to move, measured
-    counts: NDArray[np.int64]  #: (3,)
+    counts: NDArray[np.int64]  #: (4,)
     changes: Array  #: (2,)
     close: float  #: change at which the search ends
     plain: int  #: periods before the first combination, while springs find their modes
-    patience: int  #: periods without a smaller change, after which it ends as well
+    patience: int  #: periods without a smaller change, or with a step that was not solved for, after which it ends too
     growth: float  #: of the change over the least, at which combinations start anew
 
 
@@ -86,11 +87,13 @@ def combine(at, image, roots):
 
 
 @_jit
-def search(at, image, e, s, held, s_0, roots, body, side, springs, slip, flight, motion, law, tools, n_periods, trace):
+def search(
+    at, image, e, s, of_body, s_0, roots, body, side, springs, slip, flight, motion, law, tools, n_periods, trace
+):
     """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
 
-    image (n_x,): room for a state, of which e and held are views; s: room, for s_0 (1 + J, n), the compressions at the
-    start of a period. trace: of the last period. The others as of `march`.
+    image (n_x,): room for a state, of which e and of_body are views; s: room, for s_0 (1 + J, n), the compressions at
+    the start of a period. trace: of the last period. The others as of `march`.
     """
     n_t, ended = motion.z.size - 1, False
     while n_periods > 0 and not ended:
@@ -99,6 +102,9 @@ def search(at, image, e, s, held, s_0, roots, body, side, springs, slip, flight,
         put(s_0, s)
         within_friction(e, s)
         copy(image, at.start)
-        march(e, s, held, body, side, springs, slip, flight, motion, law, tools, n_t, trace)
+        solved = march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, n_t, trace)
         ended = combine(at, image, roots)
+        at.counts[UNSOLVED] = 0 if solved else at.counts[UNSOLVED] + 1
+        if at.counts[UNSOLVED] > at.patience:
+            at.changes[BEST], ended = np.nan, True
     return ended

@@ -36,7 +36,7 @@ Pushes = Callable[[], tuple[Array, ...]]
 MEMORY = 8  #: periods that are combined
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
 MOST = 80  #: periods after which Anderson's method gives up
-PATIENCE = 30  #: periods without a smaller change, after which it gives up as well
+PATIENCE = 30  #: periods without a smaller change, or with steps that were not solved for, after which it gives up too
 A_TIME = (3, 20)  #: how much more memory, and how many more periods, each slow time of a material gets
 CLOSE = 1e-10  #: change over a period, over the size of the state, that any answer may have
 CLOSEST = 1e-13  #: the same that can be reached: some roundings
@@ -111,7 +111,7 @@ class Options:
         """Anderson's method at its beginning, from a state (n,); motions: slow ones that it may begin to combine."""
         memory = MEMORY + A_TIME[0] * len(self.slow) - 1  # differences between so many images
         (start, image, moved, best), (d_image, d_moved) = np.zeros((4, x.size)), np.empty((2, memory, x.size))
-        counts = np.zeros(3, dtype=np.int64)
+        counts = np.zeros(4, dtype=np.int64)
         if motions is not None:
             counts[anderson.KEPT] = k = min(len(motions.after), memory)
             d_image[:k], d_moved[:k] = motions.after[:k], measure(motions.after[:k] - motions.before[:k])

@@ -58,6 +58,8 @@ def search(
     """
     scaled, norm, n_before = stepper.scaled, EnergyNorm(stepper.scaled), stepper.n_periods
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
+    if 2 * np.pi < scaled.law.T:  # a dashpot that a period does not relax
+        slow += (scaled.law.T / (2 * np.pi),)
     if slow and scaled.body.C:
         slow += (scaled.body.M / (np.pi * scaled.body.C) / fixed_point.CREEP,)
     if scaled.body.pull_time > SLOW_PULL:

@@ -7,7 +7,7 @@ run: (1) half of the steps; (2) half of the steps and springs; (3) three quarter
 Run less (1) tells the error of the steps, (1) less (2) that of the springs, which counts one and a half times; at
 second order each is three times the true error. The bound is their sum. Two runs may agree by chance, so that it is
 never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than 3/8 |(2) - (4)|, as errors fall at
-most eightfold where both numbers are doubled. Where the bound is more than is asked for, steps or springs are doubled,
+most eightfold where both numbers are doubled; nor, where friction turns, less than a tenth of what is asked for. Where the bound is more than is asked for, steps or springs are doubled,
 as these companions tell, until a run would be too dear.
 
 Each run begins in the periodic state of one before it.
@@ -22,7 +22,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.body import RESOLVED
-from mdr.march.dynamics.dimensionless import fast_ratio
+from mdr.march.dynamics.dimensionless import fast_ratio, stopping_rate
 from mdr.march.periodic.search import FULL
 from mdr.march.periodic.steady import (
     BUDGET,
@@ -46,6 +46,7 @@ MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
 MOST_CHOSEN = 2**22  #: springs times steps, of which a run takes seconds: errors of first order would go on for minutes
 UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an error was seen to fall by a fifth only
 BY_CHANCE = 3.0  #: times the difference to a run with three quarters of steps and springs: what the bound is at least
+AGREED = 0.1  #: of the accuracy asked for: where friction turns, runs that agree better do so by chance (with arms)
 MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled
 UNRESOLVED = 2.0  #: times the difference to a run whose steps resolve more, as that may miss as much again
 
@@ -57,11 +58,17 @@ def default_springs(case: SlidingContact) -> int:
 
 def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: their half still resolves the oscillation of the
-    body on the contact, if that can be afforded.
+    body on the contact, if that can be afforded. In the plane three eighths of them resolve how dashpots stop it too:
+    a body that is stopped within a step is solved for together with its springs, which fails where friction turns.
     """
-    plain, fast = N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)), fast_ratio(case)
-    resolved = 0 if np.isinf(fast) else N_STEPS * int(np.ceil(2.02 * RESOLVED * fast / N_STEPS))
-    return min(max(plain, resolved), MOST_STEPS)
+    plain, rates = (
+        N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)),
+        [2.02 * RESOLVED * fast_ratio(case)],
+    )
+    if case.moves_across:
+        rates += [2.02 * np.pi * 8 / 3 * stopping_rate(case)]
+    resolved = [N_STEPS * int(np.ceil(rate / N_STEPS)) for rate in rates if np.isfinite(rate)]
+    return min(max(plain, *resolved, 0), MOST_STEPS)
 
 
 def _harder(case: SlidingContact) -> tuple[int, int]:
@@ -257,6 +264,8 @@ def _missed_by(runs: _Runs, main: Converged) -> Missed:
     _, less = at_hand(runs.case, beside.less)
     if less.body.light == half.scaled.body.light:  # else a body moves by another scheme there
         by_chance += [Companion(_apart(half, runs.beside(half, beside.less)), BY_CHANCE / MOST_GAINED)]
+    if runs.case.moves_across:
+        by_chance += [Companion(0.0, least=AGREED * main.resolution.accuracy)]
     return Missed(Companion(_apart(main, steps)), Companion(_apart(steps, half), UNEVENLY), tuple(by_chance))
 
 
