@@ -10,8 +10,7 @@ import mdr
 from mdr.case.displacement import inner_part
 from mdr.commands.arguments import add_reading, path_of, read_as, reading, whole_number
 from mdr.commands.output import WrongInput, answer, picked
-from mdr.commands.written import add_output, output_folder, write_found
-from mdr.files.toml_text import StandardInput
+from mdr.commands.written import add_output, make_folder, write_found
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
@@ -45,17 +44,15 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
-    if isinstance(args.motion, StandardInput) and isinstance(args.case, StandardInput):
-        raise WrongInput("- stands for the motion and for the case: standard input can be read once, give a file")
-    case, folder = mdr.read_case(args.case), output_folder(args)
+    case = mdr.read_case(args.case)
+    make_folder(args)
     try:
         recorded = mdr.read_record(args.motion, **reading(args))
         motion = with_displacements(recorded, args.high_pass, case)
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {str(fault).removeprefix(f'{args.motion}: ')}") from None
-    if folder is not None:
-        write_found(args, folder / "record", found, case)
+    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
