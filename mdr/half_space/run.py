@@ -320,21 +320,12 @@ def _settings(
         raise TypeError(f"coupled must be True or False, got {coupled!r}")
     if start not in STARTS:
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    for name, value, least in (
-        ("cells", cells, LEAST),
-        ("steps_per_period", steps, LEAST),
-        ("n_periods", periods, 1),
-    ):
-        if value is not None:
-            count(name, value, least)
     settings = Settings(
-        Settings.cells if cells is None else cells,
-        Settings.steps if steps is None else steps,
-        PERIODS if periods is None else periods,
-        coupled,
-        settled=SETTLED if periods is None else 0.0,
-        from_rest=start == "rest",
-    )
+        Settings.cells if cells is None else count("cells", cells, LEAST),
+        Settings.steps if steps is None else count("steps_per_period", steps, LEAST),
+        PERIODS if periods is None else count("n_periods", periods, 1),
+        coupled, settled=SETTLED if periods is None else 0.0, from_rest=start == "rest",
+    )  # fmt: skip
     contact_of(case, replace(settings, cells=LEAST))
     return settings
 
@@ -406,28 +397,14 @@ def _record(
     places = last.contact.half_space.places
     return HalfSpaceRun(
         **{name: getattr(found, name) for name in ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")},
-        cof_error=min(grid + step + rest, 2 * mu_0),
-        grid_error=grid,
-        step_error=step,
-        cycle_error=rest,
-        settled=settled,
-        kind="unsettled" if not settled else "periodic" if share else "full slip",
-        why="" if settled else "; ".join(_why_not(found, rest / mu_0)),
-        stick_share=share,
-        v_0=v_0,
-        mu_0=mu_0,
-        coupled=settings.coupled,
-        cells=settings.cells,
-        steps_per_period=settings.steps,
-        n_periods=found.cycles,
-        x=places,
-        y=places,
-        t=case.period * np.arange(1, settings.steps + 1) / settings.steps,
-        pressure=tractions[:, Z],
-        q_x=tractions[:, X],
-        q_y=tractions[:, Y],
-        stick=stick,
-    )
+        cof_error=min(grid + step + rest, 2 * mu_0), grid_error=grid, step_error=step, cycle_error=rest,
+        settled=settled, kind="unsettled" if not settled else "periodic" if share else "full slip",
+        why="" if settled else "; ".join(_why_not(found, rest / mu_0)), stick_share=share,
+        v_0=v_0, mu_0=mu_0, coupled=settings.coupled,
+        cells=settings.cells, steps_per_period=settings.steps, n_periods=found.cycles,
+        x=places, y=places, t=case.period * np.arange(1, settings.steps + 1) / settings.steps,
+        pressure=tractions[:, Z], q_x=tractions[:, X], q_y=tractions[:, Y], stick=stick,
+    )  # fmt: skip
 
 
 def _why_not(found: Friction, left: float) -> Iterator[str]:
