@@ -223,12 +223,15 @@ def deficit(v_hat: float) -> float:
         raise ValueError(f"v_hat must lie in [0, 1], got {v_hat!r}; above 1 friction is not reduced")
     if v_hat in (0.0, 1.0):
         return 1.0 - v_hat
+    return lag_of_stick(np.pi + np.arcsin(v_hat), v_hat)
+
+
+def lag_of_stick(begin: float, v_hat: float) -> float:
+    """Mean lag [-] over the period of an elastic spring that sticks from this phase on, 0 < v_hat < 1."""
     from scipy.optimize import brentq
 
-    phi_1 = np.pi + np.arcsin(v_hat)
-    turn = 3 * np.pi - np.arcsin(v_hat)  # the depth falls faster than -v_hat only beyond this
-    phi_2 = brentq(
-        lambda phi: np.cos(phi) - np.cos(phi_1) - v_hat * (phi - phi_1), 2 * np.pi - np.arcsin(v_hat), turn, xtol=1e-15
-    )
-    span = phi_2 - phi_1
-    return float((np.sin(phi_2) - np.sin(phi_1) - np.cos(phi_1) * span - v_hat * span**2 / 2) / (2 * np.pi))
+    # where the depth falls as fast as the pull; the stick ends before
+    last, turn = 2 * np.pi - np.arcsin(v_hat), 3 * np.pi - np.arcsin(v_hat)
+    end = brentq(lambda phi: np.cos(phi) - np.cos(begin) - v_hat * (phi - begin), last, turn, xtol=1e-15)
+    span = end - begin
+    return float((np.sin(end) - np.sin(begin) - np.cos(begin) * span - v_hat * span**2 / 2) / (2 * np.pi))

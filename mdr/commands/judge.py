@@ -51,9 +51,8 @@ def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         ways = {"\nboth ways:": found}
     else:
         ways = {"\nforward:": found, "\nthe other way:": back}
-    told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()} | (
-        {"\nat rest:": ends} if ends else {}
-    )
+    told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()}
+    told |= {"\nat rest:": ends} if ends else {}
     text = "\n".join([str(found), *(line for head, rows in told.items() for line in (head, text_of(rows)) if line)])
     values = values_of(_judged(found, *equation_of(case)))
     if back is not None:

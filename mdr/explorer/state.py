@@ -81,9 +81,7 @@ class State:
         state = replace(self, kept={**self.kept, **{f"{slot}.{one}": value for one, value in now.items()}})
         if new is None:
             return state._with(replace(case, **{slot: None}))
-        mine = {
-            path.removeprefix(f"{slot}."): value for path, value in state.kept.items() if path.startswith(f"{slot}.")
-        }
+        mine = {path.partition(".")[2]: one for path, one in state.kept.items() if path.startswith(f"{slot}.")}
         sizes, others = scales_of(self.case), {}
         if slot == "shake":
             mine["omega"] = sizes["omega"]

@@ -85,16 +85,12 @@ class SampledProfile(Indenter):
     def __post_init__(self) -> None:
         super().__post_init__()
         require_pairs("r", self.r, "f", self.f, DEGREE + 1)
-        if self.r[0] != 0:
-            raise FieldError(
-                f"r must begin at 0, the tip from which the depth counts, got {self.r[0]:.6g} m: "
-                + (
-                    "give one side of a mirrored profile"
-                    if self.r[0] < 0
-                    else "sort the points by r and add f at the tip"
-                ),
-                "r",
+        if (first := self.r[0]) != 0:
+            way_out = (
+                "give one side of a mirrored profile" if first < 0 else "sort the points by r and add f at the tip"
             )
+            what = f"r must begin at 0, the tip from which the depth counts, got {first:.6g} m: {way_out}"
+            raise FieldError(what, "r")
         require_ascent("r", self.r)
         if (range_of_f := max(self.f) - min(self.f)) == 0:
             raise FieldError(f"f is {self.f[0]:.6g} m at every r, a flat face: use FlatPunch(a={self.r[-1]!r})", "f")

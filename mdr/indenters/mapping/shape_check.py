@@ -21,6 +21,12 @@ Method = Callable[..., Array]
 
 GRID = np.unique(np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))  #: radii, many at the tip
 FINE = np.unique(np.append(GRID, np.linspace(0, 1, 513)[1:]))  #: where they cost little
+NEGATIVE = "the contact radius is {a:.6g} m {place}, where it must be positive"
+SHRINKS = "the contact radius falls at d = {d:.6g} m, so that the contact would shrink there"
+FALLS = (
+    "annular contact: its one-dimensional profile g falls at x = {a:.6g} m, so that a ring touches before the disc "
+    "inside it; the method needs a full disc: choose a shape whose g(x) rises"
+)
 AGREE = 1e-6  #: of the greatest: by which two ways to one quantity may differ in a user's class
 
 
@@ -38,25 +44,11 @@ def why_no_shape(d: Array, a: Array, V: Array | None = None, near: float = SAME,
         below = (a < 0) | ((a == 0) & (d > near * d.max()))
         shrinks = np.maximum.accumulate(a) - a > near * a.max()
         falls = np.maximum.accumulate(np.maximum(d, 0)) - d > near * np.abs(d).max()
-        for wrong, words in ((below, _negative), (shrinks, _shrinks), (falls, _falls)):
+        for wrong, words in ((below, NEGATIVE), (shrinks, SHRINKS), (falls, FALLS)):
             if wrong.any():
-                return words(d, a, int(np.argmax(wrong)))
+                i = int(np.argmax(wrong))
+                return words.format(d=d[i], a=a[i], place=_place(i, d, a))
         return "" if V is None else _not_the_force(d, a, V, max(near, near_V) * a.max() * d.max())
-
-
-def _negative(d: Array, a: Array, i: int) -> str:
-    return f"the contact radius is {a[i]:.6g} m {_place(i, d, a)}, where it must be positive"
-
-
-def _shrinks(d: Array, a: Array, i: int) -> str:
-    return f"the contact radius falls at d = {d[i]:.6g} m, so that the contact would shrink there"
-
-
-def _falls(d: Array, a: Array, i: int) -> str:
-    return (
-        f"annular contact: its one-dimensional profile g falls at x = {a[i]:.6g} m, so that a ring touches before the "
-        "disc inside it; the method needs a full disc: choose a shape whose g(x) rises"
-    )
 
 
 def _not_the_force(d: Array, a: Array, V: Array, spare: float) -> str:
