@@ -19,9 +19,8 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
     known = "the number that is searched for, such as oscillation.du_z, load, frequency or alpha"
     command.add_argument("path", help=known)
     command.usage = "%(prog)s case.toml path (--v-0 velocity --cof friction | --v-c velocity) [--within low high]"
-    command.add_argument(
-        "--v-0", metavar="velocity", type=velocity, help="pulling velocity, with --cof: 10mm/s, 0.5v_c"
-    )
+    pulled = "pulling velocity, with --cof: 10mm/s, 0.5v_c"
+    command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
     friction = quantity("a COF", "-", OF_MU_0)
     command.add_argument("--cof", metavar="friction", type=friction, help="friction that is wanted: 0.2, 0.5mu_0")
     command.add_argument("--v-c", metavar="velocity", type=velocity, help="critical velocity that is wanted")
