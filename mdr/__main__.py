@@ -21,25 +21,10 @@ from typing import Any
 
 import mdr
 from mdr.case.contact import SlidingContact
-from mdr.commands import (
-    ask,
-    begin,
-    completion,
-    curve,
-    explore,
-    export,
-    fit,
-    judge,
-    record,
-    run,
-    sweep,
-    three_dimensions,
-    velocity,
-    warm,
-)
+from mdr.commands import ask, begin, completion, curve, explore, export, fit, judge, record, run, sweep, velocity, warm
 from mdr.commands.arguments import NEGATIVE, joined, no_options, path_of
 from mdr.commands.output import Exit, WrongInput, complain
-from mdr.files.toml_text import CaseFileError
+from mdr.files.toml_text import CaseFileError, StandardInput
 from mdr.given.case_file import read_case, read_said
 from mdr.normal.resolved import plausibility
 from mdr.studies.study_files import read_study_file
@@ -51,11 +36,11 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None,
     ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run", read_case,
      no_options),
     ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip", read_case,
-     run.add_options),
+     run.add_options_of_run),
     ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation", read_case,
      curve.add_options),
-    ("half-space", three_dimensions.half_space, "one velocity in three dimensions: friction with its errors, and a map",
-     read_case, three_dimensions.add_options),
+    ("half-space", run.half_space, "one velocity in three dimensions: friction with its errors, and a map", read_case,
+     run.add_options_of_half_space),
     ("measure", judge.measure, "critical velocity from simulation alone", read_case, judge.add_accuracy_of_bracket),
     ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", read_case,
      judge.add_options),
@@ -113,6 +98,7 @@ def _run(args: argparse.Namespace) -> int:
         complain(f"warning: {text}")
 
     try:
+        _require_one_standard_input(args)
         with warnings.catch_warnings():
             warnings.showwarning = lambda message, *_, **__: warned(str(message))
             status = work(args, _read(args) if args.read else None)
@@ -125,6 +111,13 @@ def _run(args: argparse.Namespace) -> int:
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
         return complain(f"{where}{str(fault) or type(fault).__name__}")
+
+
+def _require_one_standard_input(args: argparse.Namespace) -> None:
+    twice = [name for name, given in vars(args).items() if isinstance(given, StandardInput)]
+    if len(twice) > 1:
+        both = " and for the ".join(twice)
+        raise WrongInput(f"- stands for the {both}: standard input can be read once, give a file for one")
 
 
 def _read(args: argparse.Namespace) -> Any:

@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.tools.checks import FieldError, FieldTypeError
 from mdr.tools.fields import example_of, facts_of, has_example
 from validation.full_slip import full_slip
 
@@ -69,39 +68,39 @@ def refused(call, kind=(TypeError, ValueError)):
 
 # --- every field of every record, by the rule that stands at it ---
 
-NO_NUMBER = [(one, FieldTypeError, "must be a real number, got") for one in (True, "1 mm", None, 1j, [1.0], np.ones(1))]
-NOT_FINITE = [(one, FieldError, "must be a finite number, got") for one in (NAN, INF, -INF, 10**400, Sly(1.0))]
+NO_NUMBER = [(one, TypeError, "must be a real number, got") for one in (True, "1 mm", None, 1j, [1.0], np.ones(1))]
+NOT_FINITE = [(one, ValueError, "must be a finite number, got") for one in (NAN, INF, -INF, 10**400, Sly(1.0))]
 NUMBER = [*NO_NUMBER, *NOT_FINITE]
-POSITIVE = [*NUMBER, *((one, FieldError, "must be positive, got") for one in (0, -1e-300, -3))]
-NO_LIST = [(one, FieldTypeError, "must be a list") for one in (3.0, "ab", None)]
-ROW = [("a", FieldTypeError, "must"), ([1.0, NAN], FieldError, "finite"), (np.ones((2, 2)), FieldError, "one row")]
-ENTRIES = [*NO_LIST, ([NAN], FieldError, "[0] must be a finite number"), ([1, "1"], FieldTypeError, "[1] must be")]
-ANGLES = [(one, FieldError, "must lie between 0 and 1.5708, got") for one in (0, -0.1, np.pi / 2, 30)]
-RATIOS = [(one, FieldError, "must lie in -1 < nu <= 0.5") for one in (-1, 0.51)]
+POSITIVE = [*NUMBER, *((one, ValueError, "must be positive, got") for one in (0, -1e-300, -3))]
+NO_LIST = [(one, TypeError, "must be a list") for one in (3.0, "ab", None)]
+ROW = [("a", TypeError, "must"), ([1.0, NAN], ValueError, "finite"), (np.ones((2, 2)), ValueError, "one row")]
+ENTRIES = [*NO_LIST, ([NAN], ValueError, "[0] must be a finite number"), ([1, "1"], TypeError, "[1] must be")]
+ANGLES = [(one, ValueError, "must lie between 0 and 1.5708, got") for one in (0, -0.1, np.pi / 2, 30)]
+RATIOS = [(one, ValueError, "must lie in -1 < nu <= 0.5") for one in (-1, 0.51)]
 #: what a rule must refuse: value, error, words
 HOSTILE = {
     "finite": NUMBER,
     "positive": POSITIVE,
-    "not_negative": [*NUMBER, (-1e-300, FieldError, "must not be negative, got")],
+    "not_negative": [*NUMBER, (-1e-300, ValueError, "must not be negative, got")],
     "poisson_ratio": [*NUMBER, *RATIOS],
     "_slope_angle": [*NUMBER, *ANGLES],
-    "_invertible": [*POSITIVE, (1e-320, FieldError, "beyond the range of floats")],
+    "_invertible": [*POSITIVE, (1e-320, ValueError, "beyond the range of floats")],
     "_end": [one for one in POSITIVE if one[0] is not None],
     "amplitudes": ENTRIES,
-    "_row": [*ENTRIES, ([-1.0], FieldError, "[0] must not be negative")],
+    "_row": [*ENTRIES, ([-1.0], ValueError, "[0] must not be negative")],
     "_or_none": [one for one in POSITIVE if one[0] is not None],
     "column": ROW,
-    "radii": [(3, FieldTypeError, "must be a sequence of radii"), ([-1.0], FieldError, "be positive"),
-              ("tip", FieldTypeError, "must be")],
-    "_pairs": [(5, FieldTypeError, "must be a sequence of"), ([1e6], FieldTypeError, "must be a sequence of pairs"),
-               ([(1, 2, 3)], FieldError, "[0] must be a pair"), ([(1, 1), (-1, 1)], FieldError, "[1] modulus must not"),
-               ([(1, NAN)], FieldError, "[0] relaxation time must be a finite number")],
-    "_place": [("table", FieldError, 'must be "tool"'), (1, FieldTypeError, "must be a word in quotes")],
-    "_tip": [("blunt", FieldError, "must be "), (None, FieldError, "must be ")],
-    "_springs": [*((one, FieldTypeError, "must be a whole number") for one in (True, 40.5, "many")),
-                 (15, FieldError, "must be at least 16")],
-    "_function": [("r**2", FieldTypeError, "must be a function"), (3, FieldTypeError, "must be a function")],
-    "_name": [(3, FieldTypeError, "must be a string")],
+    "radii": [(3, TypeError, "must be a sequence of radii"), ([-1.0], ValueError, "be positive"),
+              ("tip", TypeError, "must be")],
+    "_pairs": [(5, TypeError, "must be a sequence of"), ([1e6], TypeError, "must be a sequence of pairs"),
+               ([(1, 2, 3)], ValueError, "[0] must be a pair"), ([(1, 1), (-1, 1)], ValueError, "[1] modulus must not"),
+               ([(1, NAN)], ValueError, "[0] relaxation time must be a finite number")],
+    "_place": [("table", ValueError, 'must be "tool"'), (1, TypeError, "must be a word in quotes")],
+    "_tip": [("blunt", ValueError, "must be "), (None, ValueError, "must be ")],
+    "_springs": [*((one, TypeError, "must be a whole number") for one in (True, 40.5, "many")),
+                 (15, ValueError, "must be at least 16")],
+    "_function": [("r**2", TypeError, "must be a function"), (3, TypeError, "must be a function")],
+    "_name": [(3, TypeError, "must be a string")],
 }  # fmt: skip
 PARTS = {"indenter": RUBBER, "material": BALL, "oscillation": SLED, "pull": TAPPING, "shake": TAPPING}
 RECORDS = [
@@ -139,7 +138,7 @@ def test_a_field_refuses_what_its_rule_forbids(record, field):
     if rule is None:
         wrong = PARTS[field.name]
         kind, hint = f"{field.name} must be of kind ", f"; write {type(wrong).__name__}(...)"
-        hostile = [(wrong, FieldTypeError, kind), (3, FieldTypeError, kind), (type(wrong), FieldTypeError, hint)]
+        hostile = [(wrong, TypeError, kind), (3, TypeError, kind), (type(wrong), TypeError, hint)]
     else:
         hostile = HOSTILE[rule.__name__]
     for value, error, words in hostile:
@@ -147,7 +146,7 @@ def test_a_field_refuses_what_its_rule_forbids(record, field):
         message = str(refusal)
         assert message.startswith(field.name), message
         assert words in message, message
-        assert pickle.loads(pickle.dumps(refusal)).field == refusal.field == field.name  # it may come from afar
+        assert str(pickle.loads(pickle.dumps(refusal))) == message  # it may come from afar
         if words.startswith(("must be positive", "must not be negative")):
             assert facts_of(field).note in message, message
 

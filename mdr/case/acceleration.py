@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.depth_cycle import harmonic_sum
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, finite_array, instants, positive
+from mdr.tools.checks import finite_array, instants, positive
 from mdr.tools.warned import warn_outside
 
 LEAST_PERIODS = 2.9  #: in a record: three, but for what their number is uncertain by
@@ -78,22 +78,22 @@ def sampled(t: ArrayLike, a: ArrayLike) -> tuple[Array, Array]:
     """Instants [s] that rise, and an acceleration [m/s²] at each."""
     t, a = instants("t", t), finite_array("a", a, "m/s²")
     if a.shape != t.shape:
-        raise FieldError(f"a must have the shape {t.shape} of t, got {a.shape}", "a")
+        raise ValueError(f"a must have the shape {t.shape} of t, got {a.shape}")
     return t, a
 
 
-def _nothing() -> FieldError:
-    return FieldError("a: nothing periodic stands out of the noise; give a longer record, or its frequency", "a")
+def _nothing() -> ValueError:
+    return ValueError("a: nothing periodic stands out of the noise; give a longer record, or its frequency")
 
 
 def _require_sampled(record: _Record, omega: float, what: str) -> None:
     """Refuse a fundamental that the record is too short or too coarse for."""
     periods, rate = record.periods(omega), record.t.size / record.span
     if periods < LEAST_PERIODS:
-        raise FieldError(f"{what}: the record holds {periods:.3g} periods and must hold three or more", "t")
+        raise ValueError(f"{what}: the record holds {periods:.3g} periods and must hold three or more")
     if record.most(omega) < 1:
-        raise FieldError(
-            f"{what} is not below half of the sampling rate, {rate / 2:.6g} Hz: it would be aliased; sample faster", "t"
+        raise ValueError(
+            f"{what} is not below half of the sampling rate, {rate / 2:.6g} Hz: it would be aliased; sample faster"
         )
 
 
@@ -198,7 +198,7 @@ def _loudest(record: _Record) -> float:
     spectrum = np.abs(np.fft.rfft((x - drift) * np.hanning(n), 4 * n))
     first, end = int(4 * LEAST_PERIODS), 2 * n - 4
     if first >= end:
-        raise FieldError(f"t must be a list of 8 instants or more, over three periods, got {n}", "t")
+        raise ValueError(f"t must be a list of 8 instants or more, over three periods, got {n}")
     return 2 * np.pi * (first + int(np.argmax(spectrum[first:end]))) / (4 * record.span)
 
 

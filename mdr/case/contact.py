@@ -25,7 +25,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import FieldError, instance
+from mdr.tools.checks import instance
 from mdr.tools.fields import check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
@@ -82,27 +82,24 @@ class SlidingContact(Summarised):
                 "state whose friction could be averaged; give the material a long-time modulus, or use indent()"
             )
         if not self.oscillation.omega and (self.shake is None or self.shake.is_still):
-            raise FieldError(
+            raise ValueError(
                 f"nothing oscillates: {self.oscillation!r} is constant, and shake = {self.shake!r}; give a shake with "
-                "an amplitude, or an oscillation",
-                "shake",
+                "an amplitude, or an oscillation"
             )
         _ = self.repeats  # refuses frequencies in no ratio
         guided = np.isinf(self.pull.across[2]) and not self.pull.is_rigid
         if self.shake is not None and self.shake.at == "pull" and self.moves_across and guided:
-            raise FieldError(
+            raise ValueError(
                 "the pulling point is shaken across, and the body is guided there, so that nothing moves: give the "
-                'pull a stiffness k_y, or shake at = "tool"',
-                "shake",
+                'pull a stiffness k_y, or shake at = "tool"'
             )
         object.__setattr__(self, "oscillation", self.oscillation.on(self.indenter, self.material))
         if self.oscillation.knows_depth:
             if not self.u_z_max > 0:
                 motion = type(self.oscillation).__name__
-                raise FieldError(
+                raise ValueError(
                     f"the indenter never touches: the greatest depth of {motion} is {self.u_z_max:.6g} m; raise its "
-                    "mean depth or its amplitude",
-                    "oscillation",
+                    "mean depth or its amplitude"
                 )
             self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
             if self.indenter.least_depth > 0:

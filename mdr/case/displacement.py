@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from mdr.case.acceleration import sampled
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, positive
+from mdr.tools.checks import positive
 
 ORDER = 4  #: of the Butterworth filter
 
@@ -59,16 +59,14 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     high_pass, step = positive("high_pass", high_pass, "in Hz"), (t[-1] - t[0]) / (t.size - 1)
     off = np.abs(t - t[0] - step * np.arange(t.size)) / step
     if off.max() > 0.1:  # instants may be off a grid by this share of a step
-        raise FieldError(
-            f"t must rise in equal steps, but sample {np.argmax(off)} is off by {off.max():.2g} steps: interpolate a",
-            "t",
+        raise ValueError(
+            f"t must rise in equal steps, but sample {np.argmax(off)} is off by {off.max():.2g} steps: interpolate a"
         )
     low, high = 1 / (step * t.size), 0.5 / step
     if not low <= high_pass < high:
-        raise FieldError(
+        raise ValueError(
             f"high_pass must lie between {low:.4g} Hz, one over the record, and {high:.4g} Hz, half of the sampling "
-            f"rate, got {high_pass:.6g}",
-            "high_pass",
+            f"rate, got {high_pass:.6g}"
         )
     # after 8/high_pass the response of the filter is below 1e-8
     n = t.size + int(8.0 / (high_pass * step)) + 1
@@ -94,15 +92,14 @@ def _from_outside(phase: Array) -> Array:
 def inner_part(t: Array, high_pass: float) -> slice:
     """The samples of a record but for its ends, within 1/high_pass, where the displacement above it is uncertain.
 
-    FieldError where they leave too little.
+    ValueError where they leave too little.
     """
     ends, long = 1 / high_pass, float(t[-1] - t[0])
     least = 2.25 / long  # 0.25/high_pass must be left between the ends
     if high_pass < least * (1 - SAME):
-        raise FieldError(
+        raise ValueError(
             f"high_pass = {high_pass:.6g} Hz leaves the displacement uncertain for {ends:.4g} s at either end of the "
-            f"record of {long:.4g} s: give {least:.3g} Hz or more, or a longer record",
-            "high_pass",
+            f"record of {long:.4g} s: give {least:.3g} Hz or more, or a longer record"
         )
     first, end = np.searchsorted(t, [t[0] + ends * (1 - SAME), t[-1] - ends * (1 - SAME)])
     return slice(int(first), int(end))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mdr.case.motion import amplitudes, fill_up
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import FieldError, FieldTypeError, finite, not_negative
+from mdr.tools.checks import finite, not_negative
 from mdr.tools.fields import Record, facts
 
 __all__ = ["InPlaneMotion", "InPlaneOscillation"]
@@ -31,9 +31,9 @@ SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  #: of the e
 
 def _place(name: str, value: Any, note: str = "") -> str:
     if not isinstance(value, str):
-        raise FieldTypeError(f"{name} must be a word in quotes, got {value!r}", name)
+        raise TypeError(f"{name} must be a word in quotes, got {value!r}")
     if value not in PLACES:
-        raise FieldError(f'{name} must be "tool" (between body and indenter) or "pull", got {value!r}', name)
+        raise ValueError(f'{name} must be "tool" (between body and indenter) or "pull", got {value!r}')
     return value
 
 
@@ -156,14 +156,13 @@ class InPlaneMotion(Shake):
 
 @lru_cache(maxsize=256)
 def whole_ratio(one: float, other: float) -> tuple[int, int]:
-    """p, q of one/other = p/q, two frequencies whose sum is periodic. FieldError where p or q exceeds `MOST`."""
+    """p, q of one/other = p/q, two frequencies whose sum is periodic. ValueError where p or q exceeds `MOST`."""
     ratio = Fraction(one / other).limit_denominator(MOST)
     p, q = ratio.numerator, ratio.denominator
     if not (1 <= p <= MOST and abs(p / q * other / one - 1) <= SAME):
-        raise FieldError(
+        raise ValueError(
             f"omega of the shake, {other:.9g} rad/s, and of the oscillation, {one:.9g} rad/s, must be in the ratio of "
-            f"whole numbers up to {MOST}: else the motion is not periodic, and has no average over a period",
-            "omega",
+            f"whole numbers up to {MOST}: else the motion is not periodic, and has no average over a period"
         )
     return p, q
 

@@ -20,7 +20,7 @@ from mdr.case.acceleration import series_of
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
-from mdr.tools.checks import FieldError, FieldTypeError, count, finite, finite_array, not_negative
+from mdr.tools.checks import count, finite, finite_array, not_negative
 from mdr.tools.fields import Record, facts
 from mdr.tools.warned import warn_outside
 
@@ -28,9 +28,9 @@ __all__ = ["ConstantDepth", "ConstantLoad", "LoadOscillation", "Motion", "Normal
 
 
 def amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
-    """A list of amplitudes [m], as a tuple. FieldTypeError or FieldError for what is none."""
+    """A list of amplitudes [m], as a tuple. TypeError or ValueError for what is none."""
     if isinstance(values, str) or not isinstance(values, Sequence | np.ndarray):
-        raise FieldTypeError(f"{name} must be a list of amplitudes in m, got {values!r}", name)
+        raise TypeError(f"{name} must be a list of amplitudes in m, got {values!r}")
     return tuple(finite(f"{name}[{n}]", value) for n, value in enumerate(values))
 
 
@@ -166,10 +166,9 @@ class NormalOscillation(Motion):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.u_z0 + self.du_z <= 0:
-            raise FieldError(
+            raise ValueError(
                 f"u_z0 + du_z = {self.u_z0 + self.du_z:.6g} m: the indenter never touches; "
-                f"raise u_z0 above -du_z = {-self.du_z:.6g} m",
-                "u_z0",
+                f"raise u_z0 above -du_z = {-self.du_z:.6g} m"
             )
 
     @property
@@ -215,10 +214,10 @@ class PeriodicMotion(Motion):
         super().__post_init__()
         if not fill_up(self, "cos", "sin"):
             what = "cos and sin are all zero: nothing oscillates; give an amplitude in m, or take ConstantDepth"
-            raise FieldError(what, "cos")
+            raise ValueError(what)
         deepest = self.u_z0 + self.cycle.unit * self.cycle.greatest
         if deepest <= 0:
-            raise FieldError(f"u_z = {deepest:.6g} m at its deepest: the indenter never touches; raise u_z0", "u_z0")
+            raise ValueError(f"u_z = {deepest:.6g} m at its deepest: the indenter never touches; raise u_z0")
 
     @property
     def cycle(self) -> Cycle:
@@ -370,10 +369,9 @@ class LoadOscillation(_Load):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.m_z == 0 and self.dF_z >= self.F_z0:
-            raise FieldError(
+            raise ValueError(
                 f"dF_z = {self.dF_z:.6g} N must be less than F_z0 = {self.F_z0:.6g} N where nothing has mass: the load "
-                "would lift the indenter off and no contact bring it back; lower dF_z, or give m_z",
-                "dF_z",
+                "would lift the indenter off and no contact bring it back; lower dF_z, or give m_z"
             )
 
     def F_z(self, t: ArrayLike) -> NDArray[np.float64]:

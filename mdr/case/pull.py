@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import FieldError, finite_array, not_negative, positive
+from mdr.tools.checks import finite_array, not_negative, positive
 from mdr.tools.fields import Record, facts
 
 __all__ = ["Pull", "RigidPull", "SpringPull"]
@@ -129,10 +129,9 @@ class SpringPull(Pull):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.c_y and self.k_y is None:
-            raise FieldError(
+            raise ValueError(
                 f"c_y = {self.c_y:g} N s/m damps a motion across the pull, and without k_y the body is guided and has "
-                "none: give k_y, or leave c_y out",
-                "c_y",
+                "none: give k_y, or leave c_y out"
             )
 
     @property

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FieldError, FieldTypeError, count, not_negative, positive
+from mdr.tools.checks import count, not_negative, positive
 from mdr.tools.fields import Record, facts
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for a line times f^6
@@ -23,7 +23,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for a line times f^
 def _row(name: str, values: Any, note: str = "") -> tuple[float, ...]:
     """A list of numbers, none of them negative."""
     if isinstance(values, str) or not isinstance(values, Sequence | np.ndarray):
-        raise FieldTypeError(f"{name} must be a list of numbers ({note}), got {values!r}", name)
+        raise TypeError(f"{name} must be a list of numbers ({note}), got {values!r}")
     return tuple(not_negative(f"{name}[{n}]", value, note) for n, value in enumerate(values))
 
 
@@ -48,11 +48,11 @@ class Spectrum(Record):
         super().__post_init__()
         if len(self.f) < 2 or len(self.density) != len(self.f):
             sizes = f"{len(self.f)} and {len(self.density)}"
-            raise FieldError(f"f and density must be lists of one length, two or more, got {sizes} numbers", "density")
+            raise ValueError(f"f and density must be lists of one length, two or more, got {sizes} numbers")
         if np.any(np.diff(self.f) <= 0):
-            raise FieldError(f"f must rise, got {self.f}: take a steep edge over a small step", "f")
+            raise ValueError(f"f must rise, got {self.f}: take a steep edge over a small step")
         if not self.moment(0) > 0:
-            raise FieldError("density is zero: nothing vibrates", "density")
+            raise ValueError("density is zero: nothing vibrates")
 
     @classmethod
     def band(cls, rms: float, f_low: float, f_high: float) -> Spectrum:

@@ -80,17 +80,9 @@ def eq_7(mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma
 
 @_finite
 def eq_10(
-    t: Any,
-    v_0: float,
-    mu_0: float,
-    u_z0: float,
-    du_z: float,
-    omega: float,
-    k_zc: float,
-    gamma_zc: float,
-    k_x: float,
-    m: float,
-) -> Any:
+    t: Any, v_0: float, mu_0: float, u_z0: float, du_z: float, omega: float,
+    k_zc: float, gamma_zc: float, k_x: float, m: float,
+) -> Any:  # fmt: skip
     """Position u_x(t) [m] of the body in full slip, Eq. (10).
 
     The particular solution of Eq. (8); a free oscillation of the body may ride on it, as friction does not damp it in
@@ -117,18 +109,9 @@ def eq_12(t: Any, mu_0: float, u_z0: float, du_z: float, omega: float, mindlin_r
 
 @_finite
 def eq_13(
-    t: Any,
-    v_0: float,
-    mu_0: float,
-    u_z0: float,
-    du_z: float,
-    omega: float,
-    k_zc: float,
-    gamma_zc: float,
-    mindlin_ratio: float,
-    k_x: float,
-    m: float,
-) -> Any:
+    t: Any, v_0: float, mu_0: float, u_z0: float, du_z: float, omega: float,
+    k_zc: float, gamma_zc: float, mindlin_ratio: float, k_x: float, m: float,
+) -> Any:  # fmt: skip
     """Position u_xc(t) [m] of the foot in full slip, Eq. (13): Eq. (10) less Eq. (12)."""
     body = eq_10(t, v_0, mu_0, u_z0, du_z, omega, k_zc, gamma_zc, k_x, m)
     return body - eq_12(t, mu_0, u_z0, du_z, omega, mindlin_ratio)
@@ -136,17 +119,9 @@ def eq_13(
 
 @_finite
 def eq_14(
-    t: Any,
-    v_0: float,
-    mu_0: float,
-    du_z: float,
-    omega: float,
-    k_zc: float,
-    gamma_zc: float,
-    mindlin_ratio: float,
-    k_x: float,
-    m: float,
-) -> Any:
+    t: Any, v_0: float, mu_0: float, du_z: float, omega: float,
+    k_zc: float, gamma_zc: float, mindlin_ratio: float, k_x: float, m: float,
+) -> Any:  # fmt: skip
     """Velocity of the foot [m/s] in full slip, Eq. (14), second line. Slip stops where it would turn negative. Holds as
     Eq. (10) does.
     """
@@ -188,16 +163,9 @@ def eq_2(mu_0: float, du_z: float, omega: float, k_zc: float, k_xc: float, k_x: 
 
 @_finite
 def eq_15(
-    mu_0: float,
-    du_z: float,
-    omega: float,
-    k_zc: float,
-    k_xc: float,
-    gamma_zc: float,
-    k_x: float,
-    m: float,
-    c_x: float = 0.0,
-) -> float:
+    mu_0: float, du_z: float, omega: float,
+    k_zc: float, k_xc: float, gamma_zc: float, k_x: float, m: float, c_x: float = 0.0,
+) -> float:  # fmt: skip
     """Pulling velocity [m/s] above which the oscillation no longer lowers friction, Eq. (15).
 
     Eq. (2) is its limit gamma_zc -> 0 and Eq. (1) its limit k_x -> infinity. The system damper c_x extends it: k_x
@@ -255,12 +223,15 @@ def deficit(v_hat: float) -> float:
         raise ValueError(f"v_hat must lie in [0, 1], got {v_hat!r}; above 1 friction is not reduced")
     if v_hat in (0.0, 1.0):
         return 1.0 - v_hat
+    return lag_of_stick(np.pi + np.arcsin(v_hat), v_hat)
+
+
+def lag_of_stick(begin: float, v_hat: float) -> float:
+    """Mean lag [-] over the period of an elastic spring that sticks from this phase on, 0 < v_hat < 1."""
     from scipy.optimize import brentq
 
-    phi_1 = np.pi + np.arcsin(v_hat)
-    turn = 3 * np.pi - np.arcsin(v_hat)  # the depth falls faster than -v_hat only beyond this
-    phi_2 = brentq(
-        lambda phi: np.cos(phi) - np.cos(phi_1) - v_hat * (phi - phi_1), 2 * np.pi - np.arcsin(v_hat), turn, xtol=1e-15
-    )
-    span = phi_2 - phi_1
-    return float((np.sin(phi_2) - np.sin(phi_1) - np.cos(phi_1) * span - v_hat * span**2 / 2) / (2 * np.pi))
+    # where the depth falls as fast as the pull; the stick ends before
+    last, turn = 2 * np.pi - np.arcsin(v_hat), 3 * np.pi - np.arcsin(v_hat)
+    end = brentq(lambda phi: np.cos(phi) - np.cos(begin) - v_hat * (phi - begin), last, turn, xtol=1e-15)
+    span = end - begin
+    return float((np.sin(end) - np.sin(begin) - np.cos(begin) * span - v_hat * span**2 / 2) / (2 * np.pi))

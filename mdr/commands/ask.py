@@ -8,7 +8,7 @@ import mdr
 from mdr.case.paths import facts_at
 from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
 from mdr.commands.output import Exit, answer, picked, refusals
-from mdr.commands.written import add_output, output_folder, write_figure, write_text
+from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.free_parameters import path_of
 from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
@@ -19,9 +19,8 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
     known = "the number that is searched for, such as oscillation.du_z, load, frequency or alpha"
     command.add_argument("path", help=known)
     command.usage = "%(prog)s case.toml path (--v-0 velocity --cof friction | --v-c velocity) [--within low high]"
-    command.add_argument(
-        "--v-0", metavar="velocity", type=velocity, help="pulling velocity, with --cof: 10mm/s, 0.5v_c"
-    )
+    pulled = "pulling velocity, with --cof: 10mm/s, 0.5v_c"
+    command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
     friction = quantity("a COF", "-", OF_MU_0)
     command.add_argument("--cof", metavar="friction", type=friction, help="friction that is wanted: 0.2, 0.5mu_0")
     command.add_argument("--v-c", metavar="velocity", type=velocity, help="critical velocity that is wanted")
@@ -53,12 +52,10 @@ def add_options_of_tolerance(command: argparse.ArgumentParser) -> None:
 
 def tolerance(args: argparse.Namespace, asked: Said) -> int:
     """Vary each input, write and print; status 1 if a run did not settle."""
-    folder = output_folder(args)
+    make_folder(args)
     with refusals():
         found = mdr.tolerance(asked.case, args.v_0.on(asked.case), args.by, args.fields, held=asked.held)
-    if folder is not None:
-        write_text(args, folder / "tolerance.csv", found.table(), str(found))
-        write_figure(args, folder / "tolerance", found.plot)
+    write_found(args, found.plot, found.table(), str(found))
     values = picked(found, "v_0", "by", "base_cof", "base_v_c", "inputs", "cof", "v_c", "warnings")
     answer(args, values, str(found), asked.case)
     return Exit.FAILED if found.warnings else Exit.DONE

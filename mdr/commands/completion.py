@@ -57,9 +57,8 @@ def _fish(commands: dict[str, argparse.ArgumentParser]) -> Iterator[str]:
         yield f"complete -c mdr -n __fish_use_subcommand -f -a {name} -d {shlex.quote(parser.description or '')}"
         here = f"complete -c mdr -n '__fish_seen_subcommand_from {name}'"
         for one in parser._actions:
-            spelt = " ".join(
-                f"-{'l' if word.startswith('--') else 's'} {word.lstrip('-')}" for word in one.option_strings
-            )
+            kinds = {word: "l" if word.startswith("--") else "s" for word in one.option_strings}  # long and short
+            spelt = " ".join(f"-{kind} {word.lstrip('-')}" for word, kind in kinds.items())
             value, meaning = "" if one.nargs == 0 else " -r", shlex.quote((one.help or "").replace("%%", "%"))
             if spelt:
                 yield f"{here} {spelt}{value} -d {meaning}"

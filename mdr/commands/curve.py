@@ -13,7 +13,7 @@ from mdr.closed_forms.critical_velocity import POINTS, UP_TO, velocity_scale
 from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, stand_in_of_v_c, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
-from mdr.commands.written import add_output, output_folder, write_figure, write_text
+from mdr.commands.written import add_output, make_folder, write_found
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -32,15 +32,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Compute the curve, write and print it; status 1 if a run did not settle."""
-    from mdr.plots import style
-
     velocities = _velocities(args, case)
-    folder = output_folder(args)  # before the work, not after it
+    make_folder(args)
     found = mdr.cof_curve(case, velocities, accuracy=args.accuracy)
-    if folder is not None:
-        write_text(args, folder / "curve.csv", found.table(), "", mdr.write_case(case))
-        with style():
-            write_figure(args, folder / "curve", found.plot)
+    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     ends = ends_of(case)
     back = ["v_c_back"] if case.is_shaken else []
     values = picked(found, "v_c", "mu_0", "static_cof", *back) | values_of(ends)

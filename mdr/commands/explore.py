@@ -24,9 +24,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     port = "port, 0 for a free one (default: %(default)s)"
     command.add_argument("--port", type=whole_number(0, 2**16 - 1), default=5006, help=port)  # Bokeh's own
     beyond = "address of the page in a browser that comes by a tunnel to another port, or a proxy: localhost:8080"
-    command.add_argument(
-        "--address", metavar="host:port", type=read_as(beyond.partition(": ")[2], _address), help=beyond
-    )
+    address = read_as(beyond.partition(": ")[2], _address)
+    command.add_argument("--address", metavar="host:port", type=address, help=beyond)
     command.epilog = (
         "The page is served to this machine alone. From another one: ssh -L 5006:localhost:5006 this-machine, and open"
         " http://localhost:5006 there. Where the tunnel begins at another port, -L 8080:localhost:5006, add --address"

@@ -8,9 +8,8 @@ from typing import Any
 import mdr
 from mdr.case.paths import facts_at
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, reading
-from mdr.commands.output import WrongInput, answer, picked, refusals
-from mdr.commands.written import add_output, output_folder, write_figure, write_text
-from mdr.files.toml_text import StandardInput
+from mdr.commands.output import answer, picked, refusals
+from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.fit import Fit
 from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
@@ -35,16 +34,12 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def fit(args: argparse.Namespace, asked: Said) -> int:
     """Fit, write and print."""
-    if isinstance(args.data, StandardInput) and isinstance(args.case, StandardInput):
-        raise WrongInput("- stands for the case and for the data: standard input can be read once, give a file for one")
-    folder = output_folder(args)
+    make_folder(args)
     with refusals():
         data = mdr.read_friction_data(args.data, **reading(args))
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
         found = mdr.fit(asked.case, data, args.free, **knobs)
-    if folder is not None:
-        write_text(args, folder / "fitted.toml", mdr.write_case(found.case), str(found))
-        write_figure(args, folder / "fit", found.plot)
+    write_found(args, found.plot, mdr.write_case(found.case), str(found))
     return answer(args, _told(found), str(found), found.case)
 
 

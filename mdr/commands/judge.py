@@ -10,6 +10,7 @@ from mdr.commands.output import Exit, Told, answer, text_of, values_of
 from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
 from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.friction.verdict import Verdict
+from mdr.tools.checks import between
 from mdr.tools.notation import value_in
 
 
@@ -20,7 +21,9 @@ def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """How far off a good formula may be."""
-    share = read_as("a share above 0 and below 1, such as 1% or 0.01", _share)
+    share = read_as(
+        "a share above 0 and below 1, such as 1% or 0.01", lambda text: between("", value_in("", text, "-"), 0, 1)
+    )
     usual = f"{100 * Verdict.within:g}%%"
     meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {usual})"
     command.add_argument("--within", metavar="share", type=share, default=Verdict.within, help=meaning)
@@ -51,9 +54,8 @@ def verdict(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         ways = {"\nboth ways:": found}
     else:
         ways = {"\nforward:": found, "\nthe other way:": back}
-    told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()} | (
-        {"\nat rest:": ends} if ends else {}
-    )
+    told = {head: _judged(one, *equation_of(case)) for head, one in ways.items()}
+    told |= {"\nat rest:": ends} if ends else {}
     text = "\n".join([str(found), *(line for head, rows in told.items() for line in (head, text_of(rows)) if line)])
     values = values_of(_judged(found, *equation_of(case)))
     if back is not None:
@@ -96,11 +98,3 @@ def _judged(found: Verdict, equation: str, how: str) -> list[Told]:
 
 def _yes_or_no(answer: bool | None, neither: str) -> str:
     return neither if answer is None else "yes" if answer else "no"
-
-
-def _share(text: str) -> float:
-    """A share of v_c, given as such or as a percentage."""
-    share = value_in("share", text, "-")
-    if not 0 < share < 1:
-        raise ValueError
-    return share

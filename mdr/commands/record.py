@@ -10,8 +10,7 @@ import mdr
 from mdr.case.displacement import inner_part
 from mdr.commands.arguments import add_reading, path_of, read_as, reading, whole_number
 from mdr.commands.output import WrongInput, answer, picked
-from mdr.commands.written import add_output, output_folder, write_found
-from mdr.files.toml_text import StandardInput
+from mdr.commands.written import add_output, make_folder, write_found
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
@@ -20,23 +19,15 @@ from mdr.tools.notation import value_in
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """The motion, and where to write."""
-    columns = (
-        "motion of the indenter: columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, a_y, a_z"
-    )
-    command.add_argument("motion", metavar="motion.csv", type=path_of, help=columns)
+    what = "columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, a_y, a_z"
+    command.add_argument("motion", metavar="motion.csv", type=path_of, help=f"motion of the indenter: {what}")
     case = "the case file: shape, material and mu_0 count; - is standard input"
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
-    high_pass = (
-        "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; one of its"
-    )
-    high_pass += " periods at either end of the record is uncertain and left out"
-    command.add_argument(
-        "--high-pass",
-        metavar="5Hz",
-        type=read_as("a frequency such as 5Hz", lambda text: positive("", value_in("", text, "Hz"))),
-        help=high_pass,
-    )
+    frequency = read_as("a frequency such as 5Hz", lambda text: positive("", value_in("", text, "Hz")))
+    above = "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; one of its"
+    above += " periods at either end of the record is uncertain and left out"
+    command.add_argument("--high-pass", metavar="5Hz", type=frequency, help=above)
     size = whole_number(2 * MIN_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: 256)")
     add_reading(command)
@@ -45,26 +36,22 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
-    if isinstance(args.motion, StandardInput) and isinstance(args.case, StandardInput):
-        raise WrongInput("- stands for the motion and for the case: standard input can be read once, give a file")
-    case, folder = mdr.read_case(args.case), output_folder(args)
+    case = mdr.read_case(args.case)
+    make_folder(args)
     try:
         recorded = mdr.read_record(args.motion, **reading(args))
         motion = with_displacements(recorded, args.high_pass, case)
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {str(fault).removeprefix(f'{args.motion}: ')}") from None
-    if folder is not None:
-        write_found(args, folder / "record", found, case)
+    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
     whole, kept = (float(t[-1] - t[0]) for t in (recorded["t"], found.t))
     values["left_out"] = whole - kept
-    ends = (
-        f"\nleft out: {whole - kept:.4g} of {whole:.4g} s, both ends, where the high-pass makes displacements uncertain"
-    )
-    return answer(args, values, f"{found}{ends if kept < whole else ''}", case)
+    ends = f"\nleft out: {whole - kept:.4g} of {whole:.4g} s, both ends, where the high-pass makes displacements "
+    return answer(args, values, f"{found}{ends + 'uncertain' if kept < whole else ''}", case)
 
 
 def with_displacements(record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact) -> dict[str, Any]:

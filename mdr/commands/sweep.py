@@ -9,9 +9,9 @@ from typing import Any
 import mdr
 from mdr.commands.arguments import plain_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, refusals
-from mdr.commands.written import add_output, made_by, output_folder, require_free, write_figure, write_text
+from mdr.commands.written import add_output, made_by, make_folder, require_free, write_figure, write_text
 from mdr.studies import Status
-from mdr.studies.formats import packed, table
+from mdr.studies.formats import packed
 from mdr.studies.study_files import StudyFile
 from mdr.tools.atomic_write import write_whole
 
@@ -59,7 +59,7 @@ def _require_a_place(args: argparse.Namespace) -> None:
     elif args.output.suffix and not args.output.is_dir():
         raise WrongInput(f"{args.output}: a study is written as .nc or .csv, or as both into a folder")
     else:
-        output_folder(args)
+        make_folder(args)
 
 
 def _is_file(output: Path) -> bool:
@@ -72,7 +72,7 @@ def _write(args: argparse.Namespace, study: mdr.Study) -> None:
     files = [args.output] if _is_file(args.output) else [args.output / name for name in FILES[:2]]
     for path in files:
         if path.suffix == ".csv":
-            write_text(args, path, table(study), "", study.case)
+            write_text(args, path, study.table(), "", study.case)
         else:
             write_whole(path, packed(study, history=made_by(args)))
     try:

@@ -44,11 +44,8 @@ def velocity(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
 def _velocities(case: mdr.SlidingContact) -> list[Told]:
     """The critical velocities and friction at rest; of a contact shaken in the plane, for each way of the pull."""
     equation, how = equation_of(case)
-    forward = (
-        ("forward", f"critical velocity by {equation} {how}")
-        if case.is_shaken
-        else (equation, f"critical velocity, {how}")
-    )
+    by = f" by {equation} {how}" if case.is_shaken else f", {how}"
+    forward = ("forward" if case.is_shaken else equation, f"critical velocity{by}")
     full = f"critical velocity{' forward' if case.is_shaken else ''}, any amplitude, {HARMONICS}"
     told = [Told("equation", equation)]
     if case.moves_across:

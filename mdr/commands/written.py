@@ -9,31 +9,28 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from mdr.case.contact import SlidingContact
 from mdr.commands.output import WrongInput, complain
-from mdr.files.case_files import write_case
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented, figure_metadata, versions
 
 
 def add_output(command: argparse.ArgumentParser, *names: str) -> None:
-    """The folder that a command writes these files to."""
+    """The folder that a command writes these files to: those of `write_found`, a text and a figure in two formats."""
     meaning = f"write {', '.join(names[:-1])} and {names[-1]} here; files of these names are overwritten"
     command.add_argument("-o", "--output", metavar="folder", type=Path, help=meaning)
     command.set_defaults(files=names)
 
 
-def output_folder(args: argparse.Namespace) -> Path | None:
-    """The folder asked for, made where it is missing; refused, before the work, where its files cannot be written."""
+def make_folder(args: argparse.Namespace) -> None:
+    """Make the folder asked for, before the work; refused where it cannot be, or its files cannot be written."""
     folder: Path | None = args.output
     if folder is None:
-        return None
+        return
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as fault:
         raise WrongInput(f"{folder}: no folder to write to: {getattr(fault, 'strerror', None) or fault}") from None
     require_free([folder / name for name in args.files])
-    return folder
 
 
 def require_free(paths: Sequence[Path]) -> None:
@@ -59,19 +56,23 @@ def write_text(args: argparse.Namespace, path: Path, text: str, *head: str) -> N
     write_whole(path, (commented(made_by(args), *head) + text).encode("utf-8"))
 
 
-def write_found(args: argparse.Namespace, stem: Path, found: Any, case: SlidingContact) -> None:
-    """Write the table of what was found, behind the case, as stem.csv, and its figure."""
-    write_text(args, stem.with_suffix(".csv"), found.table(), "", write_case(case))
-    write_figure(args, stem, found.plot)
+def write_found(args: argparse.Namespace, draw: Callable[[], Any], text: str, *head: str) -> None:
+    """Write the files of a command, where a folder was asked for: a text with `head` before it, and a figure."""
+    if args.output is not None:
+        write_text(args, args.output / args.files[0], text, *head)
+        write_figure(args, args.output / Path(args.files[1]).stem, draw)
 
 
 def write_figure(args: argparse.Namespace, stem: Path, draw: Callable[[], Any]) -> None:
     """Write stem.png and stem.svg, drawn without a display, which keep versions and command."""
     import matplotlib as mpl
 
+    from mdr.plots import style
+
     mpl.use("Agg")
-    figure = draw().figure
-    for kind in ("png", "svg"):
-        drawn = BytesIO()
-        figure.savefig(drawn, format=kind, dpi=150, metadata=figure_metadata(kind, args.command))
-        write_whole(stem.parent / f"{stem.name}.{kind}", drawn.getvalue())
+    with style():
+        figure = draw().figure
+        for kind in ("png", "svg"):
+            drawn = BytesIO()
+            figure.savefig(drawn, format=kind, dpi=150, metadata=figure_metadata(kind, args.command))
+            write_whole(stem.parent / f"{stem.name}.{kind}", drawn.getvalue())

@@ -86,9 +86,8 @@ class OverPeriod:
         for one in (body, springs, phase, play, *cursors):
             one.syncable = False
         named: dict[str, Any] = {"frames": self.frames, "still": self.still, "outline": self.outline, "phase": phase}
-        draw = CustomJS(
-            args={**named, "springs": springs, "body": body, "shades": SHADES, "cursors": cursors}, code=DRAW
-        )
+        named |= {"springs": springs, "body": body, "shades": SHADES, "cursors": cursors}
+        draw = CustomJS(args=named, code=DRAW)
         phase.js_on_change("value", draw)
         self.frames.js_on_change("data", draw)
         # a period lasts four seconds

@@ -81,9 +81,7 @@ class State:
         state = replace(self, kept={**self.kept, **{f"{slot}.{one}": value for one, value in now.items()}})
         if new is None:
             return state._with(replace(case, **{slot: None}))
-        mine = {
-            path.removeprefix(f"{slot}."): value for path, value in state.kept.items() if path.startswith(f"{slot}.")
-        }
+        mine = {path.partition(".")[2]: one for path, one in state.kept.items() if path.startswith(f"{slot}.")}
         sizes, others = scales_of(self.case), {}
         if slot == "shake":
             mine["omega"] = sizes["omega"]
@@ -133,17 +131,10 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     small = 0.1  # of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
     natural = 2.0 * case.omega  # of a new body: off resonance
     m = k_x / natural**2
+    reach = case.mu_0 * kappa * depth
     sizes = {
-        "u_z0": depth,
-        "du_z": small * depth,
-        "F_z0": load,
-        "dF_z": small * load,
-        "m_z": k_zc / natural**2,
-        "tau": small / case.omega,
-        "k_x": k_x,
-        "m": m,
-        "c_x": 2 * small * float(np.sqrt(k_x * m)),
-        "du_x": case.mu_0 * kappa * depth / 2,
-        "du_y": case.mu_0 * kappa * depth / 2,
-    }
+        "u_z0": depth, "du_z": small * depth, "F_z0": load, "dF_z": small * load, "m_z": k_zc / natural**2,
+        "tau": small / case.omega, "k_x": k_x, "m": m, "c_x": 2 * small * float(np.sqrt(k_x * m)),
+        "du_x": reach / 2, "du_y": reach / 2,
+    }  # fmt: skip
     return {name: float(f"{size:.2g}") for name, size in sizes.items()} | {"omega": case.omega}

@@ -49,12 +49,10 @@ def from_table(
 
 def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     kinds = [one.name for one in MODULI if one.name in table.values]
-    if len(kinds) != 1:
-        raise (
-            table.lacks("no E_j", "E_j [MPa], tau_j [s]")
-            if not kinds
-            else table.fault(f"{' and '.join(kinds)}: give one")
-        )
+    if not kinds:
+        raise table.lacks("no E_j", "E_j [MPa], tau_j [s]")
+    if len(kinds) > 1:
+        raise table.fault(f"{' and '.join(kinds)}: give one")
     (kind,), tau, E = kinds, table.values["tau_j"], table.values[kinds[0]]
     if not np.all(good := (E >= 0) & (tau > 0)):
         i, unit = int(np.argmin(good)), "" if kind == "g_j" else " Pa"

@@ -277,10 +277,8 @@ class _Table:
         """What else may be given, or left out, in the place of a field that is missing."""
         if record is SpringPull:
             return {"k_x": "leave [pull] out for a rigid pull"}
-        settings = settings_of(self.name)
-        return {
-            one.field_of(self.name, record): f"or give {alias} [{one.facts.unit}]" for alias, one in settings.items()
-        }
+        aliases = settings_of(self.name).items()
+        return {one.field_of(self.name, record): f"or give {alias} [{one.facts.unit}]" for alias, one in aliases}
 
     def _unknown(self, key: str, record: type[Any]) -> str:
         """Say that a key is unknown, and its right spelling, its right place, or all there are."""

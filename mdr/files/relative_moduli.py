@@ -79,8 +79,5 @@ def _shares(record: type[Any], table: Mapping[str, Any]) -> tuple[float | None, 
     except (KeyError, TypeError, ValueError):
         return None
     E_inf = table.get("E_inf")
-    if any(
-        isinstance(one, bool) or not isinstance(one, (int, float)) for one in [*moduli, 0 if E_inf is None else E_inf]
-    ):
-        return None
-    return E_inf, moduli
+    plain = all(type(one) in (int, float) for one in [*moduli, 0 if E_inf is None else E_inf])
+    return (E_inf, moduli) if plain else None

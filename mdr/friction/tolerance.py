@@ -64,7 +64,7 @@ class Tolerance(Summarised, Tabled):
         matplotlib.axes.Axes
             Where friction was drawn.
         """
-        from mdr.plots.tornado import plot_tolerance
+        from mdr.plots.records import plot_tolerance
 
         return plot_tolerance(self, ax)
 

@@ -19,8 +19,8 @@ from mdr.indenters.paraboloid import Paraboloid
 from mdr.march.result.slide import slide
 from mdr.materials import Elastic, KelvinVoigt, Material, Prony
 from mdr.normal.indentation import indent
+from mdr.tools.compiling import unsaid
 from mdr.tools.fields import example_of
-from mdr.tools.jit import unsaid
 from mdr.tools.progress import progress, silent
 
 MATERIALS: tuple[Material, ...] = (example_of(KelvinVoigt), example_of(Elastic), example_of(Prony))

@@ -321,17 +321,10 @@ def _settings(
         raise TypeError(f"coupled must be True or False, got {coupled!r}")
     if start not in STARTS:
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
-    for name, value, least in (
-        ("cells", cells, LEAST),
-        ("steps_per_period", steps, LEAST),
-        ("n_periods", periods, 1),
-    ):
-        if value is not None:
-            count(name, value, least)
     settings = Settings(
-        Settings.cells if cells is None else cells,
-        Settings.steps if steps is None else steps,
-        PERIODS if periods is None else periods,
+        Settings.cells if cells is None else count("cells", cells, LEAST),
+        Settings.steps if steps is None else count("steps_per_period", steps, LEAST),
+        PERIODS if periods is None else count("n_periods", periods, 1),
         coupled,
         settled=SETTLED if periods is None else 0.0,
         from_rest=start == "rest",

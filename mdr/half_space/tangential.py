@@ -12,6 +12,7 @@ on the discs and a line search on the energy (Bertsekas, SIAM J. Control Optim. 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,18 +46,9 @@ def traction(
         off = np.hypot(*(q - _into_discs(q - stiff * gradient, bound)))
         if np.max(off) <= tolerance * scale:
             return q
-        rim, curvature, normal = _rim(q, gradient, bound)
-        step = _newton(
-            product,
-            gradient,
-            rim,
-            curvature,
-            normal,
-            bound > 0,
-            stiff,
-            # coarsely: the step is only a direction, which the line search shortens
-            max(1e-2, 0.1 * tolerance * scale / float(np.max(off))),
-        )
+        # coarsely: the step is only a direction, which the line search shortens
+        close = max(1e-2, 0.1 * tolerance * scale / float(np.max(off)))
+        step = _newton(product, gradient, _rim(q, gradient, bound), bound > 0, stiff, close)
         q, image = _searched(product, q, image, c, step, bound)
     raise NotConverged(f"friction is off by {np.max(off) / scale:.1e} of its bound after {most} steps")
 
@@ -74,29 +66,30 @@ def _into_discs(q: Array, bound: Array) -> Array:
     return q * np.where(over, bound / np.where(over, size, 1.0), 1.0)
 
 
-def _rim(q: Array, gradient: Array, bound: Array) -> tuple[NDArray[np.bool_], Array, Array]:
-    """Which cells stay on their rim, the curvature that the rim gives them, and its normals."""
+class Rim(NamedTuple):
+    """Where cells are on the rims of their discs."""
+
+    stays: NDArray[np.bool_]  #: which do not leave it
+    curvature: Array  #: that the rim gives them
+    normal: Array
+
+
+def _rim(q: Array, gradient: Array, bound: Array) -> Rim:
+    """The cells that stay on their rim."""
     size = np.hypot(*q)
     normal = np.where(size > 0, q / np.where(size > 0, size, 1.0), 0.0)
     outward = -np.sum(gradient * normal, axis=0)
     at_limit = size >= (1 - 4 * EPS) * bound  # as projected, but for the rounding of ratio, product and length
-    rim = at_limit & (bound > 0) & (outward > 0)
-    return rim, np.where(rim, outward / np.where(bound > 0, bound, 1.0), 0.0), normal
+    stays = at_limit & (bound > 0) & (outward > 0)
+    return Rim(stays, np.where(stays, outward / np.where(bound > 0, bound, 1.0), 0.0), normal)
 
 
 def _newton(
-    product: Callable[[Array], Array],
-    gradient: Array,
-    rim: NDArray[np.bool_],
-    curvature: Array,
-    normal: Array,
-    alive: NDArray[np.bool_],
-    stiff: float,
-    close: float,
+    product: Callable[[Array], Array], gradient: Array, rim: Rim, alive: NDArray[np.bool_], stiff: float, close: float
 ) -> Array:
     """The step along free directions: conjugate gradients on the projected system, scaled by its diagonal."""
-    inside, across = alive.astype(float), np.where(rim, normal, 0.0)
-    scaling = inside / (1 / stiff + curvature)
+    inside, across = alive.astype(float), np.where(rim.stays, rim.normal, 0.0)
+    scaling = inside / (1 / stiff + rim.curvature)
 
     def free(v: Array) -> Array:
         out: Array = v * inside
@@ -115,7 +108,7 @@ def _newton(
         norm = float(np.vdot(left, scaled))
         direction = scaled + norm / before * direction
         before = norm
-        image = free(product(direction)) + curvature * direction
+        image = free(product(direction)) + rim.curvature * direction
         along = norm / float(np.vdot(direction, image))
         step += along * direction
         left -= along * image

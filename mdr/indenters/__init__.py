@@ -20,22 +20,7 @@ from mdr.indenters.truncated_cone import TruncatedCone
 from mdr.indenters.truncated_paraboloid import TruncatedParaboloid
 
 __all__ = [
-    "CappedCone",
-    "CappedParaboloid",
-    "ConcavePunch",
-    "Cone",
-    "ConstantPressure",
-    "Ellipsoid",
-    "FlatPunch",
-    "FromForce",
-    "Hyperboloid",
-    "Indenter",
-    "Paraboloid",
-    "PowerLaw",
-    "Profile",
-    "RoundedPunch",
-    "SampledProfile",
-    "Sphere",
-    "TruncatedCone",
-    "TruncatedParaboloid",
-]
+    "CappedCone", "CappedParaboloid", "ConcavePunch", "Cone", "ConstantPressure", "Ellipsoid", "FlatPunch", "FromForce",
+    "Hyperboloid", "Indenter", "Paraboloid", "PowerLaw", "Profile", "RoundedPunch", "SampledProfile", "Sphere",
+    "TruncatedCone", "TruncatedParaboloid",
+]  # fmt: skip

@@ -6,7 +6,6 @@ R1 → ∞ is the truncated paraboloid, R1 = R2 the paraboloid.
 from dataclasses import dataclass, field
 
 from mdr.indenters.worn import Section, Worn
-from mdr.tools.checks import FieldError
 from mdr.tools.fields import facts
 
 
@@ -26,10 +25,9 @@ class CappedParaboloid(Worn):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.R2 > self.R1:
-            raise FieldError(
+            raise ValueError(
                 f"R2 must not exceed R1 = {self.R1:.6g} m, got {self.R2:.6g} m: outside a sharper cap the slope drops, "
-                "so that a ring touches before the disc inside it (annular contact); the method needs a full disc",
-                "R2",
+                "so that a ring touches before the disc inside it (annular contact); the method needs a full disc"
             )
 
     @property

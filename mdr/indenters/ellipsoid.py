@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import artanh, conic_area
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FieldError, finite_array, plain, positive
+from mdr.tools.checks import finite_array, plain, positive
 from mdr.tools.fields import facts
 
 
@@ -66,7 +66,7 @@ class Spheroid(Indenter):
 def _invertible(name: str, value: Any, note: str = "") -> float:
     k = positive(name, value, note)
     if not 0 < 1 / k < np.inf:
-        raise FieldError(f"{name} = {k!r} 1/m: its inverse, the half-axis across, is beyond the range of floats", name)
+        raise ValueError(f"{name} = {k!r} 1/m: its inverse, the half-axis across, is beyond the range of floats")
     return k
 
 

@@ -6,7 +6,6 @@ k_zc = dF_N/dd = 2E*a holds for any shape, so that F(d) tells the shape (Popov &
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike, fsdecode
@@ -18,11 +17,11 @@ from numpy.typing import ArrayLike
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape, why_noisy
+from mdr.indenters.mapping.shape_check import why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, SAME, Array
-from mdr.tools.checks import FieldError, finite, finite_array, not_negative, plain, positive_array
+from mdr.tools.checks import finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
@@ -31,7 +30,7 @@ TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that
 
 def _tip(name: str, value: Any, note: str = "") -> str:
     if not isinstance(value, str) or value not in TIPS:
-        raise FieldError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}", name)
+        raise ValueError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}")
     return value
 
 
@@ -75,16 +74,17 @@ class FromForce(Indenter):
         require_pairs("d", self.d, "F", self.F, DEGREE + 2)
         require_ascent("d", self.d)
         if self.d[0] != 0 or self.F[0] != 0:
-            raise FieldError(
+            raise ValueError(
                 f"d and F must begin with 0, got {self.d[0]:.6g} m and {self.F[0]:.6g} N: give depth and force less "
-                "those of the first touch",
-                "d" if self.d[0] != 0 else "F",
+                "those of the first touch"
             )
         if self.smoothing == 0:
             require_ascent("F", self.F)
         elif (least := min(self.F[1:])) <= 0:
-            raise FieldError(f"F must be positive for d > 0, got {least:.6g} N: leave such depths out", "F")
-        self._refuse_shrinking()
+            raise ValueError(f"F must be positive for d > 0, got {least:.6g} N: leave such depths out")
+        why, smoothing = why_not(self, np.array(self.d), np.array(self.F), "N")
+        if why:  # the contact must grow while it is pressed deeper
+            raise ValueError(f"F must rise more and more steeply, but {why}; {smoothing}")
 
     @classmethod
     def read(
@@ -281,16 +281,3 @@ class FromForce(Indenter):
             d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
             # a(d) may fall by 1e-6 of its greatest value: the spline's doing
             return why_no_shape(d, self._radius(d), self._force(d) / self.E_star, 1e-6)
-
-    def _smoothed_enough(self, smoothing: float) -> bool:
-        """Whether another smoothing makes it a shape."""
-        other = copy(self)
-        object.__setattr__(other, "smoothing", smoothing)
-        return not other._why_no_shape()
-
-    def _refuse_shrinking(self) -> None:
-        """The contact must grow while it is pressed deeper."""
-        d, F = np.array(self.d), np.array(self.F)
-        if why := why_noisy(self.smoothing, d, F, "N") or self._why_no_shape():
-            smoothing = told_smoothing(self._smoothed_enough, self.smoothing, d, F, "N")
-            raise ValueError(f"F must rise more and more steeply, but {why}; {smoothing}")

@@ -10,21 +10,22 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapped import SAMPLES
+from mdr.indenters.mapping.shape_check import as_heights
 from mdr.indenters.sampled_profile import radii
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FieldError, FieldTypeError, finite_array, plain, positive
+from mdr.tools.checks import finite_array, plain, positive
 from mdr.tools.fields import facts
 
 
 def _function(name: str, value: Any, note: str = "") -> Any:
     if not callable(value):
-        raise FieldTypeError(f"{name} must be a function of the radius, got {value!r}", name)
+        raise TypeError(f"{name} must be a function of the radius, got {value!r}")
     return value
 
 
 def _name(name: str, value: Any, note: str = "") -> str | None:
     if value is not None and not isinstance(value, str):
-        raise FieldTypeError(f"{name} must be a string, got {value!r}", name)
+        raise TypeError(f"{name} must be a string, got {value!r}")
     return value
 
 
@@ -63,7 +64,7 @@ class Profile(Indenter):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.kinks and self.kinks[-1] >= self.max_radius:
-            raise FieldError(f"kinks must lie within r_max = {self.max_radius:.6g} m, got {self.kinks[-1]!r}", "kinks")
+            raise ValueError(f"kinks must lie within r_max = {self.max_radius:.6g} m, got {self.kinks[-1]!r}")
         self._refuse_offset()
         self._refuse_steps()
         if self.r_max is not None:
@@ -98,10 +99,7 @@ class Profile(Indenter):
                 heights = self.f(r)
             except (TypeError, ValueError):  # f knows single numbers only
                 heights = np.vectorize(self.f, otypes=[float])(r)
-        heights = np.asarray(heights)
-        if heights.dtype.kind not in "iufb" or heights.shape not in ((), np.shape(r)):
-            raise TypeError(f"f must answer an array of radii with as many real heights, got {heights!r}")
-        return np.broadcast_to(heights.astype(np.float64), np.shape(r))
+        return as_heights("f", heights, r)
 
     def _refuse_offset(self) -> None:
         offset = float(self._f(np.zeros(1))[0])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -14,10 +13,10 @@ import numpy as np
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
-from mdr.indenters.mapping.shape_check import FINE, told_smoothing, why_no_shape, why_noisy
+from mdr.indenters.mapping.shape_check import FINE, why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, FieldTypeError, finite, finite_array, in_range, not_negative, positive
+from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive
 from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
@@ -29,7 +28,7 @@ def column(name: str, values: Any, unit: str) -> tuple[float, ...]:
     """Measured numbers in a row (n,)."""
     array = finite_array(name, values, unit)
     if array.ndim != 1:
-        raise FieldError(f"{name} must be one row of numbers in {unit}, got an array of shape {array.shape}", name)
+        raise ValueError(f"{name} must be one row of numbers in {unit}, got an array of shape {array.shape}")
     return tuple(array.tolist())
 
 
@@ -38,12 +37,12 @@ def radii(name: str, values: Any, note: str = "") -> tuple[float, ...]:
     try:
         return tuple(sorted({positive(name, b, "radius in m") for b in values}))
     except TypeError as not_radii:
-        raise FieldTypeError(f"{name} must be a sequence of radii in m, got {values!r}", name) from not_radii
+        raise TypeError(f"{name} must be a sequence of radii in m, got {values!r}") from not_radii
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
     if not isinstance(value, str) or value not in ("round", "sharp"):
-        raise FieldError(f'{name} must be "round" or "sharp", got {value!r}', name)
+        raise ValueError(f'{name} must be "round" or "sharp", got {value!r}')
     return value
 
 
@@ -85,30 +84,25 @@ class SampledProfile(Indenter):
     def __post_init__(self) -> None:
         super().__post_init__()
         require_pairs("r", self.r, "f", self.f, DEGREE + 1)
-        if self.r[0] != 0:
-            raise FieldError(
-                f"r must begin at 0, the tip from which the depth counts, got {self.r[0]:.6g} m: "
-                + (
-                    "give one side of a mirrored profile"
-                    if self.r[0] < 0
-                    else "sort the points by r and add f at the tip"
-                ),
-                "r",
+        if (first := self.r[0]) != 0:
+            way_out = (
+                "give one side of a mirrored profile" if first < 0 else "sort the points by r and add f at the tip"
             )
+            what = f"r must begin at 0, the tip from which the depth counts, got {first:.6g} m: {way_out}"
+            raise ValueError(what)
         require_ascent("r", self.r)
         if (range_of_f := max(self.f) - min(self.f)) == 0:
-            raise FieldError(f"f is {self.f[0]:.6g} m at every r, a flat face: use FlatPunch(a={self.r[-1]!r})", "f")
+            raise ValueError(f"f is {self.f[0]:.6g} m at every r, a flat face: use FlatPunch(a={self.r[-1]!r})")
         if self.smoothing >= range_of_f:
-            raise FieldError(
+            raise ValueError(
                 f"smoothing = {self.smoothing:.6g} m is the noise of the heights, which differ by {range_of_f:.6g} m "
-                "in all: give it in m",
-                "smoothing",
+                "in all: give it in m"
             )
         self._require_points(self.kinks)
         r, f = np.array(self.r), np.array(self.f)
         with in_range(f"a shape of the height {range_of_f:.6g} m and the radius {r[-1]:.6g} m"):
-            if why := why_noisy(self.smoothing, r, f, "m") or self._why_no_shape():
-                smoothing = told_smoothing(self._smoothed_enough, self.smoothing, r, f, "m")
+            why, smoothing = why_not(self, r, f, "m")
+            if why:
                 raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {smoothing}")
 
     def _why_no_shape(self) -> str:
@@ -117,12 +111,6 @@ class SampledProfile(Indenter):
         x = np.unique(np.concatenate([ends[1:], (ends[1:] + ends[:-1]) / 2, ends[-1] * FINE]))
         g, V = self._image.contacts(x)
         return why_no_shape(g, x, V)
-
-    def _smoothed_enough(self, smoothing: float) -> bool:
-        """Whether another smoothing makes it a shape."""
-        other = copy(self)
-        object.__setattr__(other, "smoothing", smoothing)
-        return not other._why_no_shape()
 
     def _refuse_annular(self, a: float) -> None:
         """Asked when it was made."""
@@ -254,32 +242,30 @@ class SampledProfile(Indenter):
         return f"if its slope jumps at r = {b!r} m, where it changes most, give kinks={named!r}"
 
     def _require_points(self, kinks: Sequence[float]) -> None:
-        """FieldError unless each is one of the points between the first and the last."""
+        """ValueError unless each is one of the points between the first and the last."""
         strange = [b for b in kinks if b not in self.r[1:-1]]
         if strange:
             nearest = min(self.r, key=lambda r: abs(r - strange[0]))
-            raise FieldError(
+            raise ValueError(
                 f"kinks must be among the r between the first and the last, got {strange[0]!r} m: "
-                f"the nearest is {nearest!r} m; add a point there",
-                "kinks",
+                f"the nearest is {nearest!r} m; add a point there"
             )
 
 
 def require_pairs(name: str, x: Sequence[float], other: str, y: Sequence[float], least: int) -> None:
-    """FieldError unless there are as many of the one as of the other, and enough."""
+    """ValueError unless there are as many of the one as of the other, and enough."""
     if len(x) != len(y):
-        raise FieldError(f"{other} must have as many numbers as {name}, got {len(y)} and {len(x)}", other)
+        raise ValueError(f"{other} must have as many numbers as {name}, got {len(y)} and {len(x)}")
     if len(x) < least:
-        raise FieldError(f"{name} must have at least {least} numbers, got {len(x)}", name)
+        raise ValueError(f"{name} must have at least {least} numbers, got {len(x)}")
 
 
 def require_ascent(name: str, x: Sequence[float]) -> None:
-    """FieldError unless each number is above the one before."""
+    """ValueError unless each number is above the one before."""
     falls = np.flatnonzero(np.less_equal(x[1:], x[:-1]))
     if falls.size:
         i = int(falls[0])
-        raise FieldError(
+        raise ValueError(
             f"{name} must ascend, got {x[i]:.6g} and then {x[i + 1]:.6g} (numbers {i + 1} and {i + 2}): "
-            f"sort the points by {name} and take the mean of those at the same {name}",
-            name,
+            f"sort the points by {name} and take the mean of those at the same {name}"
         )

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.tools.arrays import Array
-from mdr.tools.checks import FieldError, finite, finite_array, plain
+from mdr.tools.checks import finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 from mdr.tools.secular import secular_zeros
 
@@ -41,7 +41,7 @@ def poisson_ratio(name: str, value: Any, note: str = "") -> float:
     nu = finite(name, value)
     if not -1 < nu <= 0.5:
         what = f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5"
-        raise FieldError(what, name)
+        raise ValueError(what)
     return nu
 
 

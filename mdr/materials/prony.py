@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from numpy.typing import ArrayLike
 
 from mdr.materials.base import POISSON, OneBody, poisson_ratio
-from mdr.tools.checks import FieldError, FieldTypeError, not_negative, positive
+from mdr.tools.checks import not_negative, positive
 from mdr.tools.csv_header import fault
 from mdr.tools.fields import facts
 
@@ -33,10 +33,10 @@ def _pairs(name: str, arms: Any, note: str = "") -> Arms:
     try:
         pairs = [tuple(arm) for arm in arms]
     except TypeError:
-        raise FieldTypeError(f"{name} must be a sequence of pairs (E_j, tau_j), got {arms!r}", name) from None
+        raise TypeError(f"{name} must be a sequence of pairs (E_j, tau_j), got {arms!r}") from None
     for j, pair in enumerate(pairs):
         if len(pair) != 2:
-            raise FieldError(f"{name}[{j}] must be a pair (E_j, tau_j), got {pair!r}", name)
+            raise ValueError(f"{name}[{j}] must be a pair (E_j, tau_j), got {pair!r}")
     return tuple(
         (
             not_negative(f"{name}[{j}] modulus", E_j, "E_j in Pa"),
@@ -61,7 +61,7 @@ class _WithArms(OneBody):
         super().__post_init__()
         if self.E_inf == 0 and not any(E_j > 0 for E_j, _ in self.arms):
             what = "E_inf = 0 and no arm has a modulus: nothing carries a load; give E_inf or an arm above zero"
-            raise FieldError(what, "E_inf")
+            raise ValueError(what)
 
     @property
     def E(self) -> float:  # type: ignore[override]
@@ -113,7 +113,7 @@ class Prony(_WithArms):
         super().__post_init__()
         if self.E_inf == 0 and self.tau > 0:
             what = "tau must be 0 where E_inf = 0: it is the time of that branch; name the dashpot as an arm"
-            raise FieldError(what, "tau")
+            raise ValueError(what)
 
     @classmethod
     def fit(

@@ -30,11 +30,10 @@ def to_data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int |
     if n_arms is None:
         n_arms = max(1, min(_usual_arms(omega), omega.size // 2))
     n_arms = count("n_arms", n_arms, 1)
-    times = 1 / (
-        np.geomspace(omega.min(), omega.max(), n_arms) if n_arms > 1 else np.array([np.sqrt(omega.min() * omega.max())])
-    )
+    low, high = omega.min(), omega.max()
+    times = 1 / (np.geomspace(low, high, n_arms) if n_arms > 1 else np.array([np.sqrt(low * high)]))
     E_inf, moduli = _moduli(omega, modulus, times)
-    return E_inf, tuple((float(E), float(t)) for E, t in zip(moduli, times, strict=True) if E > 0)
+    return E_inf, _arms(moduli, times)
 
 
 def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Pairs]:
@@ -55,11 +54,16 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
         missed = float(np.max(np.abs(arm(np.outer(dense, times)) @ moduli + E_inf - wanted) / np.abs(wanted)))
         least = min(least, missed)
         if missed <= error:
-            return E_inf, tuple((float(E), float(t)) for E, t in zip(moduli, times, strict=True) if E > 0)
+            return E_inf, _arms(moduli, times)
     raise ValueError(
         f"error = {error:g} of the power law is not reached by {MOST_ARMS} arms, only {least:.2g}: "
         "raise error or narrow the range omega"
     )
+
+
+def _arms(moduli: Array, times: Array) -> Pairs:
+    """The arms that have a modulus."""
+    return tuple((E, time) for E, time in zip(moduli.tolist(), times.tolist(), strict=True) if E > 0)
 
 
 def misfit(material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
@@ -113,11 +117,8 @@ def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:
     weight = 1 / np.abs(modulus)
     columns = np.column_stack([np.ones(omega.size), arm(np.outer(omega, times))]) * weight[:, None]
     target = modulus * weight
-    found, _ = nnls(
-        np.concatenate([columns.real, columns.imag]),
-        np.concatenate([target.real, target.imag]),
-        maxiter=100 * times.size,
-    )
+    rows, wanted = (np.concatenate([one.real, one.imag]) for one in (columns, target))
+    found, _ = nnls(rows, wanted, maxiter=100 * times.size)
     found[found < SAME * found.max()] = 0.0
     return float(found[0]), found[1:]
 

@@ -72,10 +72,8 @@ def _draw_instant(ax: Axes, run: Any, step: int, length: float, pressure: float)
         edges_of(x), edges_of(y), np.where(touching, pressure * p, np.nan).T,
         cmap="Blues", vmin=0, vmax=1.5 * pressure * run.pressure.max(), rasterized=True,
     )  # fmt: skip
-    if np.any(touching & ~stick):
-        hatch = ax.contourf(
-            x, y, (touching & ~stick).T.astype(float), levels=[0.5, 1.5], colors="none", hatches=["////"]
-        )
+    if np.any(slips := touching & ~stick):
+        hatch = ax.contourf(x, y, slips.T.astype(float), levels=[0.5, 1.5], colors="none", hatches=["////"])
         hatch.set_edgecolor("0.72")
         hatch.set_linewidth(0.0)
     if stick.any():

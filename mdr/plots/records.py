@@ -1,14 +1,20 @@
-"""Figures of recorded motion. Records are read by attribute only."""
+"""Figures of recorded and of random motion, and of a tolerance: how far each input alone moves friction and v_c.
+
+Records are read by attribute only.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mdr.case.paths import facts_at
 from mdr.plots.figures import COLOURS, axes_of, prefix, style, subplots
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -43,3 +49,53 @@ def plot_random_cof(found: Any, ax: Any = None) -> Any:
         ax.axhline(found.mu_0, color="0.6", lw=1, ls="--")
         ax.set(xlabel=f"pulling velocity $v_0$ [{symbol}]", ylabel=r"coefficient of friction, $\pm 2$ standard errors")
     return ax
+
+
+def plot_tolerance(found: Any, ax: Axes | None = None) -> Axes:
+    """Draw a bar for each input, friction at its smaller and larger value; beside it the critical velocity.
+
+    Parameters
+    ----------
+    found : Tolerance
+        What `tolerance` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw friction alone. None makes a new figure, with a second panel for the critical velocity.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where friction was drawn.
+    """
+    with style():
+        if ax is None and np.isfinite(found.base_v_c):
+            factor, unit = prefix([found.base_v_c], "m/s")
+            size = (8.4, 1.4 + 0.32 * len(found.cof))
+            _, (ax, beside) = subplots(1, 2, sharey=True, figsize=size, layout="constrained")
+            _bars(beside, found.v_c, found.base_v_c, found.by, factor)
+            beside.set_xlabel(f"critical velocity $v_c$ [{unit}]")
+        ax = axes_of(ax)
+        _bars(ax, found.cof, found.base_cof, found.by)
+        ax.set_xlabel(r"coefficient of friction $\mu$")
+        ax.set_yticks(range(len(found.cof)), [_label(path) for path in found.cof])
+        ax.invert_yaxis()
+        ax.legend(loc="lower right")
+    return ax
+
+
+def _bars(ax: Axes, pairs: Mapping[str, tuple[float, float]], base: float, by: float, factor: float = 1.0) -> None:
+    """A bar for each end of each input, from the base; the shorter of two on one side stands before the longer."""
+    moved = factor * (np.array([*pairs.values()]) - base)
+    moved = np.where(np.isfinite(moved), moved, 0.0)
+    most = np.abs(moved).max(initial=0.0) or 1.0
+    for lengths, colour, way in zip(moved.T, COLOURS, ("less", "more"), strict=False):
+        label = f"{100 * by:.3g} % {way}"
+        bars = ax.barh(np.arange(len(pairs)), lengths, left=factor * base, color=colour, height=0.6, label=label)
+        for bar, length in zip(bars, lengths, strict=True):
+            bar.set_zorder(2 - abs(length) / most)
+    ax.axvline(factor * base, color="0.3", linewidth=0.8, zorder=3)
+    ax.locator_params(axis="x", nbins=6)
+
+
+def _label(path: str) -> str:
+    """What an input is called."""
+    return facts_at(path).label or facts_at(path).meaning or path

@@ -25,7 +25,7 @@ from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.csv_table import data_frame
+from mdr.tools.csv_table import Tabled
 from mdr.tools.messages import MOST_TOLD, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.status import Status
@@ -61,7 +61,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(Printed, ArrayRecord, Frame):
+class Study(Printed, Tabled, ArrayRecord, Frame):
     """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
 
     A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle
@@ -164,29 +164,17 @@ class Study(Printed, ArrayRecord, Frame):
 
         write_whole(Path(path), packed(self))
 
-    def to_csv(self, path: str | PathLike[str]) -> None:
-        """Write CSV, one row for each point, with units in the header.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The file.
-        """
-        from mdr.studies.formats import table
-
-        write_whole(Path(path), table(self).encode("utf-8"))
-
-    def to_dataframe(self) -> Any:
-        """The study as a pandas.DataFrame, one row for each point, with units in the names; needs pandas.
+    def table(self) -> str:
+        """The study as CSV, one row for each point, with units in the header.
 
         Returns
         -------
-        pandas.DataFrame
+        str
             What `to_csv` writes.
         """
         from mdr.studies.formats import table
 
-        return data_frame(table(self))
+        return table(self)
 
     def to_xarray(self) -> Any:
         """The study as an xarray.Dataset, as xarray opens the NetCDF file; needs the extra `xarray`.

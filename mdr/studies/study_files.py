@@ -118,9 +118,8 @@ def _read_values(path: str, written: Any, is_shaken: bool) -> Any:
         raise ValueError(f"{path} must be a list of values or {{ from = , to = , n = }}, got {short(str(written))}")
     if path not in KINDS:
         return numbers_in(path, written, facts_at(path).unit)
-    read = [
-        (RigidPull(), []) if path == "pull" and one == {} else tried(record_of, path, one, is_shaken) for one in written
-    ]
+    rigid = path == "pull"
+    read = [(RigidPull(), []) if rigid and one == {} else tried(record_of, path, one, is_shaken) for one in written]
     if faults := [fault for _, found in read for fault in found]:
         raise CaseFileError.of(faults)
     return [record for record, _ in read]
@@ -146,9 +145,8 @@ def _range(path: str, written: Mapping[str, Any]) -> Any:
     faults = [f"{path}: {short(key)} is no key of a range; {offer(key, known)}" for key in written if key not in known]
     faults += [f"{path}: {key} is missing from the range" for key in known[:3] if key not in written]
     units = dict.fromkeys(("from", "to"), facts_at(path).unit)
-    read = {
-        key: tried(numbers_in, f"{path}: {key}", written[key], units.get(key, "")) for key in _RANGE if key in written
-    }
+    given = {key: written[key] for key in _RANGE if key in written}
+    read = {key: tried(numbers_in, f"{path}: {key}", one, units.get(key, "")) for key, one in given.items()}
     for key, (value, unread) in read.items():
         faults += unread or tried(_RANGE[key], f"{path}: {key}", value)[1]
     if faults:

@@ -19,38 +19,27 @@ from mdr.tools.arrays import Array
 from mdr.tools.messages import short
 
 
-class _Blames(Exception):
-    """An error with the `field` that is to blame: the name of a field of a record, or of an argument."""
+class FieldError(ValueError):
+    """A wrong value, of what was given for a field of a record or an argument."""
 
     def __init__(self, message: str, field: str = "") -> None:
         super().__init__(message)
-        self.field = field
-
-
-class FieldError(_Blames, ValueError):
-    """A wrong value."""
-
-
-class FieldTypeError(_Blames, TypeError):
-    """A value of a wrong type."""
 
 
 def finite(name: str, value: Any, note: str = "") -> float:
     """A real number that is neither NaN nor infinite; its refusals need no note.
 
-    Raises FieldTypeError for anything that is not a real number (bool, str, array, complex, None), FieldError for
-    NaN and infinity.
+    Raises TypeError for anything that is not a real number (bool, str, array, complex, None), ValueError for NaN and
+    infinity.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise FieldTypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})", name)
+        raise TypeError(f"{name} must be a real number, got {value!r} ({type(value).__name__})")
     try:
         number = float(value)
     except OverflowError:
-        raise FieldError(
-            f"{name} must be a finite number, got a whole number beyond the range of floats", name
-        ) from None
+        raise ValueError(f"{name} must be a finite number, got a whole number beyond the range of floats") from None
     if not math.isfinite(number):
-        raise FieldError(f"{name} must be a finite number, got {number!r}", name)
+        raise ValueError(f"{name} must be a finite number, got {number!r}")
     return number
 
 
@@ -85,25 +74,25 @@ def ends(name: str, given: Any) -> tuple[float, float]:
 def _ruled(name: str, number: float, holds: bool, rule: str, note: str) -> float:
     """The number, for which a rule holds."""
     if not holds:
-        raise FieldError(f"{name} must {rule}, got {number!r}{f' ({note})' if note else ''}", name)
+        raise ValueError(f"{name} must {rule}, got {number!r}{f' ({note})' if note else ''}")
     return number
 
 
 def count(name: str, value: Any, least: int) -> int:
     """A whole number of at least `least`."""
     if isinstance(value, bool) or not isinstance(value, Integral):
-        raise FieldTypeError(f"{name} must be a whole number, got {value!r}", name)
+        raise TypeError(f"{name} must be a whole number, got {value!r}")
     if value < least:
-        raise FieldError(f"{name} must be at least {least}, got {value}", name)
+        raise ValueError(f"{name} must be at least {least}, got {value}")
     return int(value)
 
 
 def instance(name: str, value: object, *kinds: type[Any]) -> None:
-    """FieldTypeError unless the value is of one of the kinds; a class in the place of its record is told so."""
+    """TypeError unless the value is of one of the kinds; a class in the place of its record is told so."""
     if not isinstance(value, kinds):
         hint = f"; write {value.__name__}(...)" if isinstance(value, type) else ""
         names = " or ".join(kind.__name__ for kind in kinds)
-        raise FieldTypeError(f"{name} must be of kind {names}, got {value!r}{hint}", name)
+        raise TypeError(f"{name} must be of kind {names}, got {value!r}{hint}")
 
 
 def real_array(name: str, values: ArrayLike, unit: str = "") -> Array:
@@ -111,9 +100,9 @@ def real_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     try:
         array = np.asarray(values)
     except ValueError as ragged:
-        raise FieldTypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}", name) from ragged
+        raise TypeError(f"{name} must be an array of numbers{_in(unit)}, got {values!r}") from ragged
     if array.dtype.kind not in "iuf":
-        raise FieldTypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}", name)
+        raise TypeError(f"{name} must be real numbers{_in(unit)}, got {values!r}")
     return array.astype(np.float64, copy=False)
 
 
@@ -122,7 +111,7 @@ def finite_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     array = real_array(name, values, unit)
     if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
         bad = array[~np.isfinite(array)].flat[0]
-        raise FieldError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}", name)
+        raise ValueError(f"{name} must be finite{_in(unit)}, got {float(bad)!r}")
     return array
 
 
@@ -130,7 +119,7 @@ def row(name: str, values: ArrayLike, unit: str = "", what: str = "numbers") -> 
     """As `finite_array`, in a row of one or more: a copy, that whoever asked may keep."""
     array = np.array(finite_array(name, values, unit), ndmin=1)
     if array.ndim != 1 or array.size == 0:
-        raise FieldError(f"{name} must be a list of {what}, got an array of shape {array.shape}", name)
+        raise ValueError(f"{name} must be a list of {what}, got an array of shape {array.shape}")
     return array
 
 
@@ -138,7 +127,7 @@ def positive_array(name: str, values: ArrayLike, unit: str = "") -> Array:
     """As `finite_array`, every number above zero."""
     array = finite_array(name, values, unit)
     if not (array > 0).all():
-        raise FieldError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}", name)
+        raise ValueError(f"{name} must be positive{_in(unit)}, got {float(array[array <= 0].flat[0])!r}")
     return array
 
 
@@ -156,10 +145,10 @@ def instants(name: str, values: ArrayLike) -> Array:
     """Two or more instants [s], each after the one before."""
     t = finite_array(name, values, "s")
     if t.ndim != 1 or t.size < 2:
-        raise FieldError(f"{name} must be a list of two instants or more, got shape {t.shape}", name)
+        raise ValueError(f"{name} must be a list of two instants or more, got shape {t.shape}")
     if not np.all(np.diff(t) > 0):
         k = int(np.argmin(np.diff(t) > 0))
-        raise FieldError(f"{name} must rise, got {t[k + 1]:.9g} s after {t[k]:.9g} s (sample {k + 1})", name)
+        raise ValueError(f"{name} must rise, got {t[k + 1]:.9g} s after {t[k]:.9g} s (sample {k + 1})")
     return t
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 
@@ -14,6 +16,7 @@ class Tally:
     open: int = 0  #: that are being compiled, one within another
     since: float = 0.0  #: instant [s] from which on they are
     took: float = 0.0  #: time [s] that those before took
+    heeds: bool = True  #: whether they are counted, and told of
 
     def begin(self) -> None:
         """One more is being compiled."""
@@ -35,3 +38,13 @@ class Tally:
 
 
 TALLY = Tally()
+
+
+@contextmanager
+def unsaid() -> Iterator[None]:
+    """Nothing is counted or told inside, where who compiles on purpose says how far it has got."""
+    TALLY.heeds = False
+    try:
+        yield
+    finally:
+        TALLY.heeds = True

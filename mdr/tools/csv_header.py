@@ -89,9 +89,8 @@ class Header:
     ) -> None:
         self.columns, self.units, self.called = columns, units, called
         self.heads = [Head.of(cell) for cell in cells]
-        self.letters_differ = any(
-            own in one.names for name, own in called.items() for one in columns if one.name != name
-        )
+        others = [(own, one) for name, own in called.items() for one in columns if one.name != name]
+        self.letters_differ = any(own in one.names for own, one in others)
         self.text = short(", ".join(head.whole for head in self.heads), 120)
 
     def places(self) -> list[Place]:

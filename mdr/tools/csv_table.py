@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.tools.arrays import Array
+from mdr.tools.atomic_write import write_whole
 from mdr.tools.csv_header import Column, Header, Place, fault
 from mdr.tools.messages import short
 from mdr.tools.notation import UNITS, converted, is_number, number_in, scale_of, shown
@@ -49,7 +50,7 @@ class Tabled:
         path : str or path-like
             The file.
         """
-        Path(path).write_text(self.table(), encoding="utf-8")
+        write_whole(Path(path), self.table().encode("utf-8"))
 
     def to_dataframe(self) -> Any:
         """The table as a pandas.DataFrame, with units in the names of its columns; needs pandas.
@@ -59,17 +60,12 @@ class Tabled:
         pandas.DataFrame
             A row for each line of `table()`.
         """
-        return data_frame(self.table())
-
-
-def data_frame(text: str) -> Any:
-    """A CSV text with a header as a pandas.DataFrame. Raises ImportError with a command where pandas is missing."""
-    try:
-        import pandas
-    except ImportError:
-        way_out = "python3 -m pip --python .venv install -e '.[xarray]'"
-        raise ImportError(f"to_dataframe needs pandas, which comes with xarray: {way_out}") from None
-    return pandas.read_csv(StringIO(text), keep_default_na=False, na_values=["nan"], engine="python")
+        try:
+            import pandas
+        except ImportError:
+            way_out = "python3 -m pip --python .venv install -e '.[xarray]'"
+            raise ImportError(f"to_dataframe needs pandas, which comes with xarray: {way_out}") from None
+        return pandas.read_csv(StringIO(self.table()), keep_default_na=False, na_values=["nan"], engine="python")
 
 
 class Table(NamedTuple):
@@ -191,11 +187,9 @@ def _elsewhere(lines: Sequence[tuple[int, str]], header: Header) -> str:
                 Header(one, header.columns, header.units, header.called).places()
             except ValueError:
                 continue
-            above = (
-                f"line {number} looks like the header: take the lines above it out, or begin them with #" if k else ""
-            )
+            above = f"line {number} looks like the header: take the lines above it out, or begin them with #"
             own = f"line {lines[k + 1][0]} holds units: write {', '.join(written)} and take it out" if written else ""
-            return "; ".join(filter(None, (above, own)))
+            return "; ".join(filter(None, (above if k else "", own)))
     return ""
 
 

@@ -12,7 +12,7 @@ from dataclasses import MISSING, Field, fields, is_dataclass
 from inspect import signature
 from typing import Any, NamedTuple, Self, TypeVar
 
-from mdr.tools.checks import FieldError, FieldTypeError, positive
+from mdr.tools.checks import positive
 from mdr.tools.messages import offer
 
 T = TypeVar("T")
@@ -85,13 +85,9 @@ def example_of(record: type[T]) -> T:
 
 
 def checked(field: Field[Any], value: Any) -> Any:
-    """The value as the field keeps it. Raises FieldError or FieldTypeError, by the rule of the field."""
+    """The value as the field keeps it. Raises ValueError or TypeError, by the rule of the field."""
     rule, note = facts_of(field).rule, facts_of(field).note
-    try:
-        return value if rule is None else rule(field.name, value, note)
-    except (FieldError, FieldTypeError) as refusal:
-        refusal.field = field.name  # the rule may blame one of its values
-        raise
+    return value if rule is None else rule(field.name, value, note)
 
 
 def check_fields(record: Any) -> None:

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 from numba import njit
@@ -97,31 +96,20 @@ class Notice(event.Listener):
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
-        if _is_ours(event):
+        if _counts(event):
             if not TALLY.open:
                 self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
             TALLY.begin()
 
     def on_end(self, event: Any) -> None:
         """It is compiled."""
-        if _is_ours(event):
+        if _counts(event):
             TALLY.end()
             self.line.tick()
 
 
-def _is_ours(event: Any) -> bool:
-    return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
+def _counts(event: Any) -> bool:
+    return TALLY.heeds and str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-NOTICE = Notice()
-event.register("numba:compile", NOTICE)
-
-
-@contextmanager
-def unsaid() -> Iterator[None]:
-    """No notice inside, where who compiles on purpose says how far it has got."""
-    event.unregister("numba:compile", NOTICE)
-    try:
-        yield
-    finally:
-        event.register("numba:compile", NOTICE)
+event.register("numba:compile", Notice())

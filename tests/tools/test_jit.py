@@ -14,7 +14,7 @@ from numba.core import event
 from numba.core.event import EventStatus
 
 from mdr.tools import jit
-from mdr.tools.compiling import TALLY
+from mdr.tools.compiling import TALLY, unsaid
 
 #: A package whose function `answer` compiles in a function and a constant of two other files.
 SMALL = {
@@ -130,6 +130,6 @@ def test_who_compiles_on_purpose_has_no_notice():
             event.broadcast(event.Event("numba:compile", status, data=compiling("mdr.x").data))
             yield TALLY.open, step
 
-    with jit.unsaid():
+    with unsaid():
         assert [is_open for is_open, _ in begun_and_ended()] == [0, 0]
     assert all(is_open == step for is_open, step in begun_and_ended())

@@ -36,13 +36,7 @@ Body, finite amplitude
 
 from mdr.closed_forms.across import held_across
 from mdr.closed_forms.coupling import coupled_critical_velocity, coupling_loss, radial_rub
-from mdr.closed_forms.laws.across import (
-    excess_across,
-    lost_across,
-    rigid_across,
-    steered_across,
-    stiffened_by_coupling,
-)
+from mdr.closed_forms.laws.across import excess_across, lost_across, rigid_across, steered_across, stiffened_by_coupling
 from mdr.closed_forms.laws.bodies import (
     LeastOverDepth,
     blow,
@@ -70,44 +64,11 @@ from mdr.closed_forms.laws.shaken import EllipticDrive, elliptic_drive, held_und
 from mdr.closed_forms.laws.waveform import best_waveform, steepest_waveform, waveform_critical, waveform_loss
 
 __all__ = [
-    "EllipticDrive",
-    "LeastOverDepth",
-    "amplitude_limit",
-    "best_waveform",
-    "blow",
-    "coupled_critical_velocity",
-    "coupling_loss",
-    "depth_sensitivity",
-    "edge_band",
-    "elliptic_drive",
-    "excess_across",
-    "first_order",
-    "half_a_blow",
-    "harmonic_share",
-    "held_across",
-    "held_under_shake",
-    "late_return",
-    "least_over_depth",
-    "load_error",
-    "lock_in",
-    "lost_across",
-    "lost_under_shake",
-    "onset",
-    "radial_rub",
-    "random_end",
-    "random_friction",
-    "random_loss",
-    "resonance_residue",
-    "rigid_across",
-    "rigid_shake",
-    "rise_of_lost_punch",
-    "slow_limit",
-    "slow_random_loss",
-    "steepest_waveform",
-    "steered_across",
-    "stiffened_by_coupling",
-    "stiffness_exponent",
-    "touch_depth",
-    "waveform_critical",
-    "waveform_loss",
-]
+    "EllipticDrive", "LeastOverDepth", "amplitude_limit", "best_waveform", "blow", "coupled_critical_velocity",
+    "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive", "excess_across", "first_order", "half_a_blow",
+    "harmonic_share", "held_across", "held_under_shake", "late_return", "least_over_depth", "load_error", "lock_in",
+    "lost_across", "lost_under_shake", "onset", "radial_rub", "random_end", "random_friction", "random_loss",
+    "resonance_residue", "rigid_across", "rigid_shake", "rise_of_lost_punch", "slow_limit", "slow_random_loss",
+    "steepest_waveform", "steered_across", "stiffened_by_coupling", "stiffness_exponent", "touch_depth",
+    "waveform_critical", "waveform_loss",
+]  # fmt: skip

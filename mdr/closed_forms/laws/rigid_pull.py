@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mdr.closed_forms.paper import deficit
+from mdr.closed_forms.paper import deficit, lag_of_stick
 from mdr.tools.checks import between, finite, not_negative, positive
 
 # --- when the centre touches again ---
@@ -175,18 +175,12 @@ def edge_band(v_hat: float) -> float:
     >>> round(mdr.laws.edge_band(0.1), 4)
     -0.2285
     """
-    from scipy.optimize import brentq
-
     v = between("v_hat", v_hat, 0, 1, "v_0/v_c")
     first, last = np.pi + np.arcsin(v), 2 * np.pi - np.arcsin(v)  # touches that are followed by a stick at once
     node, weight = np.polynomial.legendre.leggauss(60)
-    total = 0.0
-    for theta, w in zip(first + (last - first) * (node + 1) / 2, (last - first) / 2 * weight, strict=True):
-        turn = 3 * np.pi - np.arcsin(v)  # where the depth falls as fast as the pull; the stick ends before
-        end = brentq(lambda t, at=theta: np.cos(t) - np.cos(at) - v * (t - at), last, turn, xtol=1e-14)
-        span = end - theta
-        lag = (np.sin(end) - np.sin(theta) - np.cos(theta) * span - v * span**2 / 2) / (2 * np.pi)
-        total += w * lag * -np.sin(theta)
+    theta = first + (last - first) * (node + 1) / 2
+    lags = np.array([lag_of_stick(one, v) for one in theta.tolist()])
+    total = (last - first) / 2 * weight @ (lags * -np.sin(theta))
     return float(total / deficit(v) - np.sqrt(1 - v**2))  # gaps from -1 to cos(first) have the lag psi
 
 

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
+from mdr.closed_forms.across import pulled_rigidly
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.paper import deficit
 from mdr.indenters.base import Indenter
 from mdr.normal.normal_force import mean_normal_force
-from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, finite, instance, not_negative, positive
 
 
@@ -107,15 +107,13 @@ def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     >>> print(f"{mdr.laws.lost_under_shake(case, 1e-5):.5f}")
     0.00471
     """
-    if not require_case(case).pull.is_rigid:
-        raise TypeError(f"this law is that of a rigid pull, got {case.pull!r}")
+    case = pulled_rigidly(case)
     if case.rheology.remembers or case.repeats not in ((1, 0), (0, 1), (1, 1)):
         raise ValueError("this law is that of an elastic contact whose depth and way have one frequency")
     v_0 = finite("v_0", v_0)
     v_c = critical_velocity(case, 1 if v_0 >= 0 else -1)
     if v_c == 0:
         return 0.0
-    case = resolved(case)
     if v_c / case.omega >= case.mu_0 * case.material.mindlin_ratio * case.cycle.u_z0:
         raise ValueError("this law is that of an amplitude below mu_0 kappa u_z0, at which no spring slips back")
     share = case.k_xc * v_c / case.omega / (case.mu_0 * mean_normal_force(case))

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.motion import Motion
 from mdr.tools.arrays import EPS, Array
-from mdr.tools.checks import FieldError, FieldTypeError, count, finite_array, not_negative, plain
+from mdr.tools.checks import count, finite_array, not_negative, plain
 
 TOLERANCE = 1e-11  #: of a parabola in the place of a piece, over A_z; Psi is off by at most 4 times as much
 FIRST = 100  #: pieces of a period, of five samples each, before the first is halved
@@ -189,7 +189,7 @@ def _harmonics(n: int) -> int:
     """A number of harmonics."""
     n = count("n_harmonics", n, 1)
     if n > 1000:
-        raise FieldError(f"n_harmonics must be at most 1000, got {n}", "n_harmonics")
+        raise ValueError(f"n_harmonics must be at most 1000, got {n}")
     return n
 
 
@@ -234,14 +234,14 @@ def _row(w: Any) -> _Row:
     turn = np.clip(_over(-p, 2 * q), 0, 1)
     mean, least = row.width @ (a + p / 2 + q / 3), min((a + (p + q * turn) * turn).min(), row.values.min())
     if not mean - least > 1e-12 * np.abs(row.values).max():
-        raise FieldError("w must oscillate: it is constant over the period", "w")
+        raise ValueError("w must oscillate: it is constant over the period")
     return row._replace(values=(row.values - mean) / (mean - least))
 
 
 def _joined(samples: Array) -> _Row:
     """Straight lines between samples."""
     if samples.ndim != 1 or samples.size < 2:
-        raise FieldError(f"w must be a list of at least 2 samples of one period, got shape {samples.shape}", "w")
+        raise ValueError(f"w must be a list of at least 2 samples of one period, got shape {samples.shape}")
     rise = np.roll(samples, -1) - samples
     n = samples.size
     return _Row(np.arange(n) / n, np.full(n, 1 / n), samples[:, None] + rise[:, None] * np.linspace(0, 1, 5))
@@ -262,7 +262,7 @@ def _refined(w: Callable[[Array], ArrayLike]) -> _Row:
         low, width = low[~good], 0.5 * width[~good]
         low, width = np.concatenate([low, low + width]), np.tile(width, 2)
         if low.size + sum(map(len, done)) > 2**20:
-            raise FieldError("w is too rough: it is no parabola on a millionth of the period; give samples of it", "w")
+            raise ValueError("w is too rough: it is no parabola on a millionth of the period; give samples of it")
     rows = np.concatenate(done)
     rows = rows[np.argsort(rows[:, 0])]
     return _Row(rows[:, 0], rows[:, 1], rows[:, 2:])
@@ -272,7 +272,7 @@ def _asked(w: Callable[[Array], ArrayLike], x: Array) -> Array:
     """Values of the callable; the end of the period is seen from before."""
     values = np.asarray(w(np.minimum(x, np.nextafter(1.0, 0.0))))
     if values.shape != x.shape:
-        raise FieldTypeError(f"w must answer in the shape of its phases, {x.shape}, got {values.shape}", "w")
+        raise TypeError(f"w must answer in the shape of its phases, {x.shape}, got {values.shape}")
     return finite_array("w", values.astype(float) if values.dtype.kind == "b" else values).copy()
 
 

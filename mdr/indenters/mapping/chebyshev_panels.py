@@ -69,11 +69,8 @@ class Chart:
 
     def __call__(self, x: Array) -> Array:
         """g(x) from its panels, in the shape of x."""
-        flat = x.ravel()
-        g, panel = (
-            np.zeros_like(flat),
-            np.minimum(np.searchsorted(self.cuts, flat, side="right") - 1, self.cuts.size - 2),
-        )
+        flat, g = x.ravel(), np.zeros(x.size)
+        panel = np.minimum(np.searchsorted(self.cuts, flat, side="right") - 1, self.cuts.size - 2)
         with np.errstate(all="ignore"):
             for i in np.unique(panel[flat > 0]):
                 on = panel == i

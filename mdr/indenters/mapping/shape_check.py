@@ -8,6 +8,7 @@ as dF_N/dd = 2E*a. What is made of data, of a function or by a class of a user i
 """
 
 from collections.abc import Callable
+from copy import copy
 from functools import wraps
 from typing import Any
 
@@ -21,6 +22,12 @@ Method = Callable[..., Array]
 
 GRID = np.unique(np.concatenate([np.linspace(0.01, 1, 64), np.geomspace(1e-6, 0.01, 12)]))  #: radii, many at the tip
 FINE = np.unique(np.append(GRID, np.linspace(0, 1, 513)[1:]))  #: where they cost little
+NEGATIVE = "the contact radius is {a:.6g} m {place}, where it must be positive"
+SHRINKS = "the contact radius falls at d = {d:.6g} m, so that the contact would shrink there"
+FALLS = (
+    "annular contact: its one-dimensional profile g falls at x = {a:.6g} m, so that a ring touches before the disc "
+    "inside it; the method needs a full disc: choose a shape whose g(x) rises"
+)
 AGREE = 1e-6  #: of the greatest: by which two ways to one quantity may differ in a user's class
 
 
@@ -38,25 +45,11 @@ def why_no_shape(d: Array, a: Array, V: Array | None = None, near: float = SAME,
         below = (a < 0) | ((a == 0) & (d > near * d.max()))
         shrinks = np.maximum.accumulate(a) - a > near * a.max()
         falls = np.maximum.accumulate(np.maximum(d, 0)) - d > near * np.abs(d).max()
-        for wrong, words in ((below, _negative), (shrinks, _shrinks), (falls, _falls)):
+        for wrong, words in ((below, NEGATIVE), (shrinks, SHRINKS), (falls, FALLS)):
             if wrong.any():
-                return words(d, a, int(np.argmax(wrong)))
+                i = int(np.argmax(wrong))
+                return words.format(d=d[i], a=a[i], place=_place(i, d, a))
         return "" if V is None else _not_the_force(d, a, V, max(near, near_V) * a.max() * d.max())
-
-
-def _negative(d: Array, a: Array, i: int) -> str:
-    return f"the contact radius is {a[i]:.6g} m {_place(i, d, a)}, where it must be positive"
-
-
-def _shrinks(d: Array, a: Array, i: int) -> str:
-    return f"the contact radius falls at d = {d[i]:.6g} m, so that the contact would shrink there"
-
-
-def _falls(d: Array, a: Array, i: int) -> str:
-    return (
-        f"annular contact: its one-dimensional profile g falls at x = {a[i]:.6g} m, so that a ring touches before the "
-        "disc inside it; the method needs a full disc: choose a shape whose g(x) rises"
-    )
 
 
 def _not_the_force(d: Array, a: Array, V: Array, spare: float) -> str:
@@ -85,15 +78,17 @@ def real(name: str, own: Method) -> Method:
 
     @wraps(own)
     def answered(self: Any, r: Array) -> Array:
-        answer = np.asarray(own(self, r))
-        if answer.dtype.kind not in "iufb" or answer.shape not in ((), np.shape(r)):
-            raise TypeError(
-                f"{name} of {type(self).__name__} must answer an array of radii with as many real heights, got "
-                f"{answer!r}"
-            )
-        return np.broadcast_to(answer.astype(np.float64, copy=False), np.shape(r))
+        return as_heights(f"{name} of {type(self).__name__}", own(self, r), r)
 
     return answered
+
+
+def as_heights(who: str, answer: Any, r: Array) -> Array:
+    """What a user's function answers to radii, as float64 in their shape."""
+    heights = np.asarray(answer)
+    if heights.dtype.kind not in "iufb" or heights.shape not in ((), np.shape(r)):
+        raise TypeError(f"{who} must answer an array of radii with as many real heights, got {heights!r}")
+    return np.broadcast_to(heights.astype(np.float64, copy=False), np.shape(r))
 
 
 def held(own: Method, expected: Method) -> Method:
@@ -156,15 +151,23 @@ def why_noisy(smoothing: float, x: Array, y: Array, unit: str) -> str:
     return f"smoothing = {smoothing:.6g} {unit} is less than the noise of the points; without it the spline meets each"
 
 
-def told_smoothing(passes: Callable[[float], bool], least: float, x: Array, y: Array, unit: str) -> str:
-    """What to say of a smoothing above ``least`` of points (x, y): the first of some that passes, or that none does."""
-    noise, last = noise_of(x, y), least
+def why_not(shape: Any, x: Array, y: Array, unit: str) -> tuple[str, str]:
+    """What is wrong with the shape of measured points (x, y), and what to say of its smoothing; empty for a shape."""
+    why: str = why_noisy(shape.smoothing, x, y, unit) or shape._why_no_shape()
+    return why, told_smoothing(shape, x, y, unit) if why else ""
+
+
+def told_smoothing(shape: Any, x: Array, y: Array, unit: str) -> str:
+    """What to say of more smoothing: the first of some with which these points make a shape, or that none does."""
+    noise, least = noise_of(x, y), shape.smoothing
+    last = least
     # points through which a spline that follows the noise is found at once; its time goes as their square
     for smoothing in max(1.2 * least, (0.5 if x.size < 300 else 1.1) * noise) * 1.5 ** np.arange(12):
         if not 0 < smoothing < 0.3 * np.ptp(y):
             break
         last = float(f"{smoothing:.2g}")
-        if passes(last):
+        object.__setattr__(other := copy(shape), "smoothing", last)
+        if not other._why_no_shape():
             return (
                 f"if it is noise, give its standard deviation as smoothing=: {last!r} {unit} is enough for a shape, "
                 f"the points look like noise of {noise:.2g} {unit}"

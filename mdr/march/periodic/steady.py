@@ -43,7 +43,7 @@ MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called u
 
 
 def accuracy_of(value: Any) -> float:
-    """An accuracy that can be asked for; FieldError or FieldTypeError of any other."""
+    """An accuracy that can be asked for; ValueError or TypeError of any other."""
     number = finite("accuracy", value)
     if not MOST_ACCURATE <= number <= LEAST_ACCURATE:
         rule = f"accuracy must lie between {MOST_ACCURATE:g} and {LEAST_ACCURATE:g}"
