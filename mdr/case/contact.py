@@ -22,9 +22,8 @@ from mdr.case.in_plane import Shake, sign_of, whole_ratio
 from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
-from mdr.materials.base import Material
+from mdr.materials.base import Material, answers, refuse_other_materials
 from mdr.materials.operator import Rheology
-from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance
 from mdr.tools.fields import check_fields, facts, facts_of
 from mdr.tools.messages import short
@@ -117,13 +116,7 @@ class SlidingContact(Summarised):
 
     def _refuse_what_springs_do_not_know(self) -> None:
         """Parts of a user's own may answer what no march computes with."""
-        must: tuple[tuple[object, str, str], ...] = (
-            (self.material, "tau", "the relaxation time [s] of its Kelvin branch, 0.0 for none"),
-            (self.oscillation, "omega", "its angular frequency [rad/s]"),
-        )
-        for part, name, what in must:
-            if not hasattr(part, name):
-                raise TypeError(f"{type(part).__name__} must answer {name}, {what}: a field or a property")
+        answers("oscillation", self.oscillation, "omega", "its angular frequency [rad/s]")
         m, c_x, k_x = self.pull.coefficients
         if not (0 <= m < np.inf and 0 <= c_x < np.inf and k_x > 0) or (np.isinf(k_x) and (m > 0 or c_x > 0)):
             raise ValueError(
@@ -131,17 +124,7 @@ class SlidingContact(Summarised):
                 "and damping must be finite and not negative, stiffness above 0; infinite for a rigid pull, whose mass "
                 "and damping are 0"
             )
-        if type(self.material).dynamic_modulus is Material.dynamic_modulus:
-            return
-        omega = self.omega
-        own = complex(self.material.dynamic_modulus(omega))
-        known = complex(Material.dynamic_modulus(self.material, omega))
-        if not abs(own - known) <= SAME * abs(known):
-            raise ValueError(
-                f"material = {self.material!r} answers dynamic_modulus(omega) = {own:.6g} Pa, and its E_star, tau and "
-                f"contact_arms make {known:.6g} Pa: springs know a material by these three; give it arms, as "
-                "Prony.fit does"
-            )
+        refuse_other_materials(self.material, self.omega)
 
     def _refuse_incomplete(self) -> None:
         """A hollow face must press everywhere at every instant."""

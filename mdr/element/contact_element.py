@@ -18,18 +18,16 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.case.contact import SlidingContact
-from mdr.case.motion import NormalOscillation
 from mdr.element.c_function import c_function
 from mdr.element.kernels import BEYOND, IMPOSSIBLE, N_HEAD, NOT_FINITE, OF_ANOTHER, SpringRow, fault, steps
 from mdr.indenters.base import Indenter
-from mdr.materials.base import Material
+from mdr.materials.base import Material, refuse_other_materials
 from mdr.materials.operator import Rheology
-from mdr.normal.spring_grid import nodes
+from mdr.normal.spring_grid import Depths, nodes
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, count, finite_array, not_negative, positive, real_array
+from mdr.tools.checks import FieldError, count, finite_array, instance, not_negative, positive, real_array
 from mdr.tools.fields import Record, check_fields, facts
 
 NO_TANGENT = np.empty((0, 3, 3))
@@ -284,14 +282,23 @@ class ContactElement(Record):
 
 def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> SpringRow:
     """The springs for depths up to `deepest` [m], cut where contact is lost at `least`; refuses what no case takes."""
-    oscillation = NormalOscillation((deepest + least) / 2, (deepest - least) / 2, 1.0)
-    case = SlidingContact(indenter, material, mu_0, oscillation)
-    _, gap, width, _ = nodes(indenter, case.cycle, case.kept_gap, n, alike=False)
-    gap, total = (gap + oscillation.u_z0) / deepest, float(width.sum())
+    instance("indenter", indenter, Indenter)
+    instance("material", material, Material)
+    mu_0 = positive("mu_0", mu_0, "coefficient of friction")
+    refuse_other_materials(material, 1.0)
+    if not material.E_star > 0:
+        raise ValueError("material: E_inf = 0, so that a mean load sinks in without end: give it a long-time modulus")
+    if indenter.least_depth > least:
+        raise ValueError(
+            f"indenter: the middle of {type(indenter).__name__} presses only from {indenter.least_depth:.6g} m on, and "
+            f"here the depth may be {least:.6g} m: short of that a ring would touch, which the method leaves out"
+        )
+    _, gap, width, _ = nodes(indenter, Depths(0.0, deepest, least, deepest), n, alike=False)
+    gap, total = gap / deepest, float(width.sum())
     w = width / total
     if gap.max() == gap.min():  # a flat face: one spring stands for all
         gap, w = gap[:1], np.ones(1)
-    rheology, length_x = Rheology.of(material, case.omega), mu_0 * material.mindlin_ratio * deepest
+    rheology, length_x = Rheology.of(material, 1.0), mu_0 * material.mindlin_ratio * deepest  # in seconds
     law = law_of(rheology.T, rheology.rho, rheology.theta)
     return SpringRow(
         gap, w, law, length_x, deepest, material.G_star * total * length_x, material.E_star * total * deepest

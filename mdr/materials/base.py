@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 from mdr.tools.secular import secular_zeros
@@ -247,3 +247,22 @@ def _elapsed(t: ArrayLike) -> Array:
     if np.any(t < 0):
         raise ValueError(f"t must not be negative, got {float(t.min())!r} s: before the step there is no answer to it")
     return t
+
+
+def answers(name: str, part: object, what: str, meaning: str) -> None:
+    """TypeError unless a part of a user's own answers a quantity."""
+    if not hasattr(part, what):
+        raise TypeError(f"{name}: {type(part).__name__} must answer {what}, {meaning}: a field or a property")
+
+
+def refuse_other_materials(material: Material, omega: float) -> None:
+    """TypeError or ValueError for a material of a user's own of which springs do not know all that it answers."""
+    answers("material", material, "tau", "the relaxation time [s] of its Kelvin branch, 0.0 for none")
+    if type(material).dynamic_modulus is Material.dynamic_modulus:
+        return
+    own, known = complex(material.dynamic_modulus(omega)), complex(Material.dynamic_modulus(material, omega))
+    if not abs(own - known) <= SAME * abs(known):
+        raise ValueError(
+            f"material = {material!r} answers dynamic_modulus(omega) = {own:.6g} Pa, and its E_star, tau and "
+            f"contact_arms make {known:.6g} Pa: springs know a material by these three; give it arms, as Prony.fit does"
+        )

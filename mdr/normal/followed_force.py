@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mdr.case.depth_cycle import Cycle, at_instants
 from mdr.indenters.base import Indenter
 from mdr.materials.operator import Rheology
-from mdr.normal.spring_grid import nodes
+from mdr.normal.spring_grid import Depths, nodes
 from mdr.spring.law import law_of
 from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
@@ -50,7 +50,7 @@ def normal_cycle(
     beside: another operator, whose springs stand at the same places, so that the two differ by the material alone.
     """
     kept = min(cycle.kept_gap(one.response) for one in (rheology, beside or rheology))
-    x, gap, width, n_core = nodes(shape, cycle, kept, n_edge)
+    x, gap, width, n_core = nodes(shape, Depths.of(cycle, kept), n_edge)
     gap = gap / cycle.unit
     F, S, radius = np.zeros(n_t), np.zeros(n_t), np.full(n_t, 0.5 * float(width[:n_core].sum()))
     if n_core:

@@ -8,14 +8,14 @@ of Fejer's first rule, which are as dense at both ends as those of Gauss and do 
 being known. What is left is of third order, of the jumps between the cuts. The mean gap of a stretch is exact. So are
 k_zc and F_N at the depth of each cut, and all sums over springs that move alike, being linear in the gap.
 
-Symbols: x position [m], gap = g(x) - u_z0 depth of a spring's foot relative to the mean depth [m], kept_gap the gap, in
-du_z, below which springs never lose contact.
+Symbols: x position [m], gap = g(x) - u_z0 depth of a spring's foot relative to a depth u_z0, such as the mean one [m].
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,18 +24,30 @@ from mdr.indenters.base import Indenter
 from mdr.tools.arrays import EPS, SAME, Array
 
 
-def nodes(
-    shape: Indenter, cycle: Cycle, kept_gap: float, n_springs: int, alike: bool = True
-) -> tuple[Array, Array, Array, int]:
+class Depths(NamedTuple):
+    """Depths [m] that a motion reaches."""
+
+    u_z0: float  #: from which gaps count
+    unit: float  #: beside which a difference of gaps is something
+    kept: float  #: gap below which springs never lose contact
+    greatest: float  #: gap at the greatest depth
+
+    @classmethod
+    def of(cls, cycle: Cycle, kept_gap: float) -> Depths:
+        """Of a periodic motion; kept_gap in units of its amplitude."""
+        return cls(cycle.u_z0, cycle.unit, cycle.unit * kept_gap, cycle.unit * cycle.greatest)
+
+
+def nodes(shape: Indenter, depths: Depths, n_springs: int, alike: bool = True) -> tuple[Array, Array, Array, int]:
     """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact.
 
     alike: whether those do the same but for their gap; under a shake in the plane each has modes of its own.
     """
     if shape.least_depth > 0:
-        return _complete(shape, cycle.u_z0, n_springs)
-    stretches = _stretches(shape, cycle, kept_gap)
-    counts = _share_out(stretches, n_springs, cycle.unit, alike)
-    parts = [_springs_of(shape, cycle.u_z0, stretch, n) for stretch, n in zip(stretches, counts, strict=True)]
+        return _complete(shape, depths.u_z0, n_springs)
+    stretches = _stretches(shape, depths)
+    counts = _share_out(stretches, n_springs, depths.unit, alike)
+    parts = [_springs_of(shape, depths.u_z0, stretch, n) for stretch, n in zip(stretches, counts, strict=True)]
     x, gap, width = (np.concatenate(part) for part in zip(*parts, strict=True))
     return x, gap, width, sum(n for stretch, n in zip(stretches, counts, strict=True) if stretch.permanent)
 
@@ -59,11 +71,10 @@ class _Stretch:
     permanent: bool  # in contact through the whole period
 
 
-def _stretches(shape: Indenter, cycle: Cycle, kept_gap: float) -> list[_Stretch]:
+def _stretches(shape: Indenter, depths: Depths) -> list[_Stretch]:
     """The row, cut where springs begin to lose contact and where contact ends, and at the kinks of the shape."""
-    u_z0, du_z = cycle.u_z0, cycle.unit
-    kept = du_z * kept_gap
-    gaps = [gap for gap in (kept, du_z * cycle.greatest) if u_z0 + gap > 0]
+    u_z0, kept = depths.u_z0, depths.kept
+    gaps = [gap for gap in (kept, depths.greatest) if u_z0 + gap > 0]
     radii = shape.contact_radius(u_z0 + np.array(gaps))
     marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]

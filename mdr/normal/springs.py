@@ -17,7 +17,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.resolved import resolved
-from mdr.normal.spring_grid import nodes
+from mdr.normal.spring_grid import Depths, nodes
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count
 from mdr.tools.records import ArrayRecord
@@ -69,7 +69,9 @@ class SpringArray(Summarised, ArrayRecord):
             For fewer than 16 springs.
         """
         case, n_springs = resolved(case), count("n_springs", n_springs, MIN_SPRINGS)
-        x, gap, width, n_core = nodes(case.indenter, case.cycle, case.kept_gap, n_springs, alike=not case.is_shaken)
+        x, gap, width, n_core = nodes(
+            case.indenter, Depths.of(case.cycle, case.kept_gap), n_springs, alike=not case.is_shaken
+        )
         return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
 
     def _summary(self) -> Summary:

@@ -22,7 +22,7 @@ from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import N_STEPS, followed_springs
-from mdr.normal.spring_grid import nodes
+from mdr.normal.spring_grid import Depths, nodes
 from mdr.spring.law import law_of
 from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
@@ -36,7 +36,9 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     A deviation grows by this factor in a period: above 1 the depth is unstable.
     """
     rheology, h = Rheology.periodic(material, load.omega), 2 * np.pi / N_STEPS
-    _, gap, width, n_core = nodes(shape, cycle, cycle.kept_gap(rheology.response), 32)  # that touch and leave
+    _, gap, width, n_core = nodes(
+        shape, Depths.of(cycle, cycle.kept_gap(rheology.response)), 32
+    )  # that touch and leave
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
     band = followed_springs(rheology, gap[n_core:] / cycle.unit, width[n_kept:], cycle, N_STEPS)

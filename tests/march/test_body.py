@@ -12,7 +12,7 @@ from scipy.linalg import expm
 import mdr
 from mdr.march.dynamics.body import body_of, harmonics_of, light_harmonics_of, pushed
 from mdr.march.dynamics.loop import march, next_place
-from mdr.march.periodic.steady import Resolution, at_hand
+from mdr.march.periodic.steady import BUDGET, Resolution, at_hand
 from mdr.spring.law import law_of
 from mdr.spring.times import tools_for
 
@@ -172,6 +172,34 @@ def test_a_pull_far_softer_than_the_contact_has_a_limit(tau):
     assert max(run.n_periods for run in runs) < 2000
     cofs = [run.cof for run in runs]
     assert np.ptp(cofs) < 1e-4 * case.mu_0
+
+
+def on_slow_dashpots(T):
+    """A body on a spring pull, on Kelvin springs of this omega tau, shaken along and across."""
+    vibration = mdr.NormalOscillation(20e-6, 15e-6, 300.0)
+    shake = mdr.InPlaneOscillation(300.0, 3e-6, 1.0, 4e-6, 2.0)
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.4, T / 300), 0.4, vibration, shake=shake)
+    k = 0.8 * case.k_xc
+    return replace(case, pull=mdr.SpringPull(k, k / 200.0**2, 0.1 * k / 300, k_y=k, c_y=0.1 * k / 300))
+
+
+@pytest.mark.parametrize("T", [10.0, 50.0, 200.0])
+def test_steps_resolve_how_slow_dashpots_stop_a_body_whose_friction_turns(T):
+    """Within a step of the length of old, body and springs did not find each other."""
+    case = on_slow_dashpots(T)
+    run = mdr.slide(case, 0.5 * case.unit_velocity)
+    assert run.settled
+    assert run.cof_error < BUDGET * case.mu_0
+    fine = mdr.slide(case, 0.5 * case.unit_velocity, n_springs=run.n_springs, steps_per_period=2 * run.steps_per_period)
+    assert (run.cof, run.cof_y) == pytest.approx((fine.cof, fine.cof_y), abs=run.cof_error)
+
+
+def test_a_body_that_no_step_resolves_ends_at_once_and_says_why():
+    case = on_slow_dashpots(1e5)
+    run = mdr.slide(case, 0.5 * case.unit_velocity)
+    assert (run.settled, run.cof_error) == (False, 2 * case.mu_0)
+    assert "was not found: raise steps_per_period, or hold the indenter rigidly" in run.why
+    assert run.n_periods < 100
 
 
 @pytest.mark.parametrize("start", ["in flight", "thrown as a flat touches", "thrown by each spring"])

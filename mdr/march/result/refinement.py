@@ -7,8 +7,9 @@ run: (1) half of the steps; (2) half of the steps and springs; (3) three quarter
 Run less (1) tells the error of the steps, (1) less (2) that of the springs, which counts one and a half times; at
 second order each is three times the true error. The bound is their sum. Two runs may agree by chance, so that it is
 never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than 3/8 |(2) - (4)|, as errors fall at
-most eightfold where both numbers are doubled; nor, where friction turns, less than a tenth of what is asked for. Where the bound is more than is asked for, steps or springs are doubled,
-as these companions tell, until a run would be too dear.
+most eightfold where both numbers are doubled; nor, where friction turns, less than a tenth of what is asked for. Where
+the bound is more than is asked for, steps or springs are doubled, as these companions tell, until a run would be too
+dear.
 
 Each run begins in the periodic state of one before it.
 """
@@ -61,14 +62,15 @@ def default_steps(case: SlidingContact) -> int:
     body on the contact, if that can be afforded. In the plane three eighths of them resolve how dashpots stop it too:
     a body that is stopped within a step is solved for together with its springs, which fails where friction turns.
     """
-    plain, rates = (
-        N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)),
-        [2.02 * RESOLVED * fast_ratio(case)],
-    )
-    if case.moves_across:
-        rates += [2.02 * np.pi * 8 / 3 * stopping_rate(case)]
-    resolved = [N_STEPS * int(np.ceil(rate / N_STEPS)) for rate in rates if np.isfinite(rate)]
-    return min(max(plain, *resolved, 0), MOST_STEPS)
+    plain, rate = N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)), fast_ratio(case)
+    resolved = 0 if np.isinf(rate) else _rounded(2.02 * RESOLVED * rate)
+    stop = stopping_rate(case) if case.moves_across else 0.0
+    stopped = _rounded(2.02 * np.pi * 8 / 3 * stop) if 2 * np.pi * stop <= MOST_STEPS else 0
+    return min(max(plain, resolved, stopped), MOST_STEPS)
+
+
+def _rounded(steps: float) -> int:
+    return N_STEPS * int(np.ceil(steps / N_STEPS))
 
 
 def _harder(case: SlidingContact) -> tuple[int, int]:
