@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from itertools import product
 
 from mdr.case.contact import SlidingContact
 from mdr.case.in_plane import InPlaneOscillation
@@ -23,7 +25,8 @@ from mdr.tools.compiling import unsaid
 from mdr.tools.fields import example_of
 from mdr.tools.progress import progress, silent
 
-MATERIALS: tuple[Material, ...] = (example_of(KelvinVoigt), example_of(Elastic), example_of(Prony))
+MATERIALS: tuple[Material, ...] = (example_of(Prony), example_of(KelvinVoigt), example_of(Elastic))  # longest first
+BESIDE = "from mdr.friction.warm import compile_others; compile_others()"  #: what a second process does
 BODY, MOTION, ALONG = example_of(SpringPull), example_of(NormalOscillation), example_of(InPlaneOscillation)
 ACROSS = replace(ALONG, du_y=ALONG.du_x)
 PULLS = (RigidPull(), BODY, replace(BODY, m=0.0))
@@ -31,23 +34,35 @@ CASE = SlidingContact(example_of(Paraboloid), MATERIALS[0], 0.5, MOTION)
 
 
 def compile_all() -> int:
-    """Number of kinds of run that are compiled from now on; with progress.
+    """Number of kinds of run that are compiled from now on, in two processes where there are two cores; with progress.
 
     What has been compiled on this machine is read from the disk.
     """
-    todo = kinds_of_run()
+    first, todo = kinds_of_run(MATERIALS[:1]), kinds_of_run()
+    beside = None if os.cpu_count() == 1 else subprocess.Popen([sys.executable, "-c", BESIDE])
     with unsaid():
-        for run in progress(todo, "compiling, once on this machine", "kinds of run"):
+        for k, run in enumerate(progress(todo, "compiling, once on this machine", "kinds of run")):
+            if k == len(first) and beside is not None:
+                beside.wait()  # what it has compiled, or has not, is seen on the disk
             with silent(lambda: None):
                 run()
     return len(todo)
 
 
-def kinds_of_run() -> list[Callable[[], object]]:
-    """Small runs, each of which compiles what it needs; the most frequent first."""
-    slides = [partial(_slide, *parts) for parts in product(MATERIALS, PULLS)]
+def compile_others() -> None:
+    """What all materials but the first need, in silence."""
+    with unsaid(), silent(lambda: None):
+        for run in kinds_of_run(MATERIALS[1:]):
+            run()
+
+
+def kinds_of_run(materials: tuple[Material, ...] = MATERIALS) -> list[Callable[[], object]]:
+    """Small runs, each of which compiles what it needs, material by material."""
     others = (_shaken, _shaken_body, _shaken_along, _indent, _record)
-    return [*slides, *(partial(one, material) for one in others for material in MATERIALS)]
+    runs: list[Callable[[], object]] = []
+    for material in materials:
+        runs += [*(partial(_slide, material, pull) for pull in PULLS), *(partial(one, material) for one in others)]
+    return runs
 
 
 def _slide(material: Material, pull: Pull) -> None:

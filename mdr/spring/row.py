@@ -64,7 +64,7 @@ def any_row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, loo
 @overload(any_row, inline="never")
 def _(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
     def along_a_line(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-        return row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+        return one_row(rub_line, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
     def in_the_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
         return row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look)

@@ -12,6 +12,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numba.core.types import NoneType
+from numba.extending import overload
 
 from mdr.march.dynamics.body import RATE, Y
 from mdr.spring.contact import Look, within
@@ -175,7 +177,7 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
                 e, s, room, of_body, last, body, springs, here, slip, flight, flight[k], law, tools, j, trace
             )
         else:
-            path, area, moment, last, found = stepped(
+            path, area, moment, last, found = any_step(
                 e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools
             )
             note(trace, j, 1, h, path)
@@ -189,6 +191,26 @@ def all_springs(s, e, springs, path, z_dot, x_dot, law, tools, excess, look):
     """A step of the row, along a line or in the plane."""
     (gap, w), (T, modes, arms) = springs, law
     return any_row(s, e, gap, w, path, z_dot, x_dot, T, modes, arms, tools, excess, None, look)
+
+
+def any_step(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
+    """A step of springs, and of a body if there is one; as of `stepped`."""
+    if body is None:
+        of = all_springs(s, e, springs, here.path, here.z_dot, here.x_dot, law, tools, None, None)
+        return here.path, of.area, of.moment, last, True
+    return stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools)
+
+
+@overload(any_step, inline="never")
+def _(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
+    def of_springs(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
+        of = all_springs(s, e, springs, here.path, here.z_dot, here.x_dot, law, tools, None, None)
+        return here.path, of.area, of.moment, last, True
+
+    def of_both(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
+        return stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools)
+
+    return of_springs if isinstance(body, NoneType) else of_both
 
 
 @_lent
@@ -205,9 +227,6 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     """
     e_0, s_0, excess = room
     h, path, found = tools.times.h, here.path, False
-    if body is None:
-        of = all_springs(s, e, springs, path, here.z_dot, here.x_dot, law, tools, None, None)
-        return path, of.area, of.moment, last, True
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
     if side is not None:
@@ -217,7 +236,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     put(s, s_0)
     for iteration in range(MOST_ITERATIONS + 1):
         if flight is not None and iteration == MOST_ITERATIONS:
-            ahead = enclosed(e, s, e_0, s_0, of_body, body, springs, here, law, tools)
+            ahead = enclosed(e, s, room, of_body, body, springs, here, law, tools)
         path, rate = moved(here.path, ahead, aside, side)
         if slip is not None and iteration == 0:
             area, moment, end = as_they_are(
@@ -368,15 +387,16 @@ def newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h):
 
 
 @_lent
-def residual_at(y, q, e, s, e_0, s_0, of_body, body, springs, here, law, tools):
+def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
+    e_0, s_0, excess = room
     put(e_0, e)
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
-    of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, None, None)
+    of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, excess, None)
     left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 
@@ -388,7 +408,7 @@ def steepest(body, law, h):
 
 
 @_inner
-def enclosed(e, s, e_0, s_0, of_body, body, springs, here, law, tools):
+def enclosed(e, s, room, of_body, body, springs, here, law, tools):
     """The step of a light body by two searches, one within the other: the force at the end rises with y, and
     where it is zero, the impulse falls as q grows.
     """
@@ -397,7 +417,7 @@ def enclosed(e, s, e_0, s_0, of_body, body, springs, here, law, tools):
     for _ in range(MOST_PLACES):
         ends_y[:] = np.nan
         for _ in range(MOST_PLACES):
-            (impulse, force, close), one = residual_at(y, q, e, s, e_0, s_0, of_body, body, springs, here, law, tools)
+            (impulse, force, close), one = residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools)
             if abs(force) <= 0.1 * close:
                 break
             y = next_place(y, force, slope, ends_y)
