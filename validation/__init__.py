@@ -33,18 +33,8 @@ GROUPS = {
     ),
     "Beyond the paper": (
         "The whole curve, waveforms and random vibration, lost contact, resonances, oscillation along and across.",
-        (
-            "one_curve",
-            "waveforms",
-            "random_vibration",
-            "lost_contact",
-            "resonances",
-            "shaken_velocity",
-            "shaken_curves",
-            "drive",
-            "shaken_across",
-            "sequel",
-        ),
+        ("one_curve", "waveforms", "random_vibration", "lost_contact", "resonances", "shaken_velocity", "shaken_curves",
+         "drive", "shaken_across", "sequel"),
     ),
     "Measured forces": (
         "The springs beside forces that were measured on a real contact.",
@@ -54,7 +44,7 @@ GROUPS = {
         "A half-space, solved with no springs at all, shows what independent springs leave out.",
         ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip", "vector_springs"),
     ),
-}
+}  # fmt: skip
 CLAIMS = tuple(name for _, names in GROUPS.values() for name in names)
 
 

@@ -7,28 +7,20 @@ import os
 import signal
 import sys
 import time
-from collections import deque
 from collections.abc import Generator, Iterator, Sequence
-from contextlib import closing, contextmanager
-from multiprocessing import connection, resource_tracker
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import closing
+from multiprocessing import resource_tracker
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from validation import Outcome, not_tested, send_claim
 from validation.page import write_report
 from validation.report import text_table
 from validation.written import other_verdicts
 
-LONGEST = (
-    "generalisation",
-    "coupled",
-    "end_of_stick",
-    "judge",
-    "transverse_slip",
-    "maps",
-    "uncoupled",
-    "resonances",
-)  #: begun first, so that none is alone at the end
+#: begun first, so that none is alone at the end
+LONGEST = ("generalisation", "coupled", "end_of_stick", "judge", "transverse_slip", "maps", "uncoupled", "resonances")
 
 
 def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
@@ -59,41 +51,62 @@ def run_all(names: Sequence[str], effort: str, package: str, jobs: int) -> Gener
 
     Closed early, as at Ctrl-C, it kills what still runs. Should this process be killed, those end by themselves.
     """
-    waiting = deque(sorted(names, key=lambda name: LONGEST.index(name) if name in LONGEST else len(LONGEST)))
-    running: dict[Any, _Running] = {}
-    try:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                with _interrupts_held():
-                    pipe, claim = _start(waiting.popleft(), effort, package)
-                    running[pipe] = claim
-            for pipe in connection.wait(list(running)):
-                claim = running[pipe]
-                outcome = _received(pipe, claim)
-                del running[pipe]
-                yield claim.name, outcome
-    finally:
-        for claim in running.values():
-            claim.process.kill()
-        for claim in running.values():
-            claim.process.join()
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # of the processes: claims share the cores
+    order = sorted(names, key=lambda name: LONGEST.index(name) if name in LONGEST else len(LONGEST))
+    running = _Running()
+    with ThreadPoolExecutor(jobs, initializer=_hear_no_interrupt) as threads:
+        tasks = {threads.submit(_in_a_process, name, effort, package, running): name for name in order}
+        try:
+            for task in as_completed(tasks):
+                yield tasks[task], task.result()
+        finally:
+            threads.shutdown(wait=False, cancel_futures=True)
+            running.kill()
 
 
-class _Running(NamedTuple):
-    name: str
-    process: Any
-    begin: float
+class _Running:
+    """The processes that test claims; once killed, each that is added is killed at once."""
+
+    def __init__(self) -> None:
+        self.processes: list[Any] = []
+        self.killed = False
+
+    def add(self, process: Any) -> None:
+        self.processes.append(process)
+        if self.killed:
+            process.kill()
+
+    def kill(self) -> None:
+        self.killed = True
+        for process in tuple(self.processes):
+            process.kill()
 
 
-def _start(name: str, effort: str, package: str) -> tuple[Any, _Running]:
-    """The end of a pipe at which a claim's outcome will arrive, and the fresh process that tests it."""
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # of the fresh process: claims share the cores
-    context = _context()
+def _hear_no_interrupt() -> None:
+    """Leave Ctrl-C to the main thread; a process inherits this from the thread that begins it."""
+    if hasattr(signal, "pthread_sigmask"):
+        resource_tracker.ensure_running()  # would hear interrupts again when begun later
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+
+
+def _in_a_process(name: str, effort: str, package: str, running: _Running) -> Outcome:
+    """What a fresh process finds of a claim, or how it died."""
+    begin, context = time.perf_counter(), _context()
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=send_claim, args=(there, name, effort, package), name=name)
     process.start()
     there.close()  # the process then holds the only one: its death is the end of the pipe
-    return here, _Running(name, process, time.perf_counter())
+    running.add(process)
+    try:
+        outcome: Outcome = here.recv()
+    except (EOFError, OSError):
+        process.join()
+        code = process.exitcode
+        how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
+        error = RuntimeError(f"the process of this claim died with {how}")
+        return not_tested(name, error, time.perf_counter() - begin)
+    process.join()
+    return outcome
 
 
 def _context() -> Any:
@@ -105,34 +118,6 @@ def _context() -> Any:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["mdr", "validation.cases", "validation.report", "matplotlib.pyplot"])
     return context
-
-
-def _received(pipe: Any, claim: _Running) -> Outcome:
-    """What the process of a claim sent, or how it died."""
-    try:
-        outcome: Outcome = pipe.recv()
-    except (EOFError, OSError):
-        claim.process.join()
-        code = claim.process.exitcode
-        how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
-        error = RuntimeError(f"the process of this claim died with {how}")
-        return not_tested(claim.name, error, time.perf_counter() - claim.begin)
-    claim.process.join()
-    return outcome
-
-
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Let Ctrl-C wait until the process begun here is listed; it and its threads inherit that they do not hear it."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    resource_tracker.ensure_running()  # would end the wait when begun later
-    held = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, held)
 
 
 def _progress(ended: Iterator[tuple[str, Outcome]], total: int) -> Iterator[tuple[str, Outcome]]:
@@ -151,11 +136,10 @@ def _progress(ended: Iterator[tuple[str, Outcome]], total: int) -> Iterator[tupl
 
 def _arguments(known: Sequence[str]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("python -m validation", description=__doc__)
+    parser.set_defaults(effort="full")
     effort = parser.add_mutually_exclusive_group()
-    effort.add_argument(
-        "--quick", dest="effort", action="store_const", const="quick", default="full", help="small grids"
-    )
-    effort.add_argument("--long", dest="effort", action="store_const", const="long", help="large tables too")
+    for name, told in (("quick", "small grids"), ("long", "large tables too")):
+        effort.add_argument(f"--{name}", dest="effort", action="store_const", const=name, help=told)
     parser.add_argument("-o", "--output", type=Path, default=Path("report"), help="folder (default: report)")
     parser.add_argument("--only", nargs="+", choices=known, metavar="name", help=", ".join(known))
     jobs = min(os.cpu_count() or 1, len(known))

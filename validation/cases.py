@@ -9,7 +9,6 @@ contact stiffness at u_z0, omega_0² = k_x/m.
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -105,7 +104,7 @@ def any_contact(
     indenter: mdr.Indenter,
     material: mdr.Material,
     motion: mdr.Motion,
-    groups: Any = None,
+    groups=None,
     u_z0: float = DEPTH,
     mu_0: float = 0.5,
 ) -> mdr.SlidingContact:
@@ -117,19 +116,29 @@ def any_contact(
 def shaken(
     shape: str,
     alpha: float,
-    chi: float,
+    chi: float = 0.0,
     phi: float = 0.0,
     T: float = 0.0,
     *,
+    eta: float = 0.0,
+    phi_y: float = 0.0,
     at: str = "tool",
     u_z0: float = DEPTH,
-    **body_of: float,
+    **more: float,
 ) -> mdr.SlidingContact:
-    """As `contact`, and shaken along its way by chi mu_0 kappa u_z0 at the phase phi; alpha = 0 is a constant depth."""
-    case = contact(shape, alpha or 0.1, T, u_z0=u_z0, **body_of)
+    """As `contact`, and shaken: alpha = 0 is a constant depth.
+
+    chi, eta: amplitudes along and across the way over mu_0 kappa u_z0. phi, phi_y: their phases. at: "tool" or "pull".
+    """
+    case = contact(shape, alpha or 0.1, T, u_z0=u_z0, **more)
     oscillation = case.oscillation if alpha else mdr.ConstantDepth(u_z0)
-    du_x = chi * case.mu_0 * case.material.mindlin_ratio * u_z0
-    return replace(case, oscillation=oscillation, shake=mdr.InPlaneOscillation(OMEGA, du_x, phi, at=at))
+    du_x, du_y = (share * case.mu_0 * case.material.mindlin_ratio * u_z0 for share in (chi, eta))
+    return replace(case, oscillation=oscillation, shake=mdr.InPlaneOscillation(OMEGA, du_x, phi, du_y, phi_y, at))
+
+
+def reach(case: mdr.SlidingContact, u_z0: float = DEPTH) -> float:
+    """mu_0 kappa u_z0 [m]: how far the deepest spring can be deflected."""
+    return case.mu_0 * case.material.mindlin_ratio * u_z0
 
 
 def driven(shape: str, alpha: float, T: float, ratio: float, damping_ratio: float = DAMPING) -> mdr.SlidingContact:

@@ -20,12 +20,11 @@ import numpy as np
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions, last_period
-from mdr.plots import COLOURS
 from validation.cases import contact
-from validation.figures import figure, outer_labels
+from validation.figures import COLOURS, figure, outer_labels
 from validation.half_space import pictures, tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import span
 
 SHAPES = ("paraboloid", "flat punch")
@@ -38,7 +37,31 @@ NEARLY = 0.5 - 1e-7  # Poisson's ratio at which coupling is on, and does next to
 
 
 def claim(effort: str) -> Claim:
-    """Read the table, compute some of it again, and look into the contact."""
+    """Springs give the friction of a compressible body
+
+    How: Read the table, compute some of it again, and look into the contact.
+
+    Quote: In the limit of a very stiff system spring … Eq. (1) … thus appears to be valid independently of the
+    viscoelastic properties of the medium. … the obtained result in Eq. (15) is valid not only for the simple considered
+    model …, but also for quite general contacts. (Section 2.2.2)
+
+    Range: {n_rows} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to 0.45
+    (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from {slowest:g} to
+    {fastest:g}; {tables.SETTINGS.cells}² cells and {tables.SETTINGS.steps} steps, errors beside each
+    (validation/half_space/tables/coupled.csv)
+
+    Measured: Dundurs' β couples the two: where it vanishes, coupled and uncoupled runs agree. Where it does not, the
+    contact grows and shrinks with the surface rubbing radially under it, at up to λ = 2|β|/(π μ_0 κ) times the velocity
+    of Eq. (1), and friction is lower than that of the springs. At most, by {heavy} of μ_0 at ν = 0.45, {usual} at ν =
+    0.3 and {light} at ν = 0 (μ_0 = 0.3; paraboloid and punch). The loss is greatest at {where} for λ up to 1.2; for the
+    largest λ it goes on growing down to {slowest:g} v_c, the lowest velocity that was tried. A core that is shifted to
+    the trailing edge sticks, and what slips around it slips outward as the contact grows.
+
+    Verdict: holds if Dundurs' β is zero: an incompressible body (ν = 0.5), or two bodies of the same material
+
+    Sentence: With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that of
+    the springs by {usual} of μ_0 at ν = μ_0 = 0.3 and up to {greatest:.0f} % in the table.
+    """
     quick = effort == "quick"
     if effort == "long":
         contacts = [(shape, nu, mu_0, ALPHA, 0.0) for mu_0 in FRICTIONS for nu in RATIOS for shape in SHAPES]
@@ -46,35 +69,16 @@ def claim(effort: str) -> Claim:
         tables.write("coupled", computed, tables.SETTINGS, "elastic, rigid pull, coupled")
     rows = tables.read("coupled")
     most = max(rows, key=lambda row: row.loss)
+    n_rows, slowest, fastest = len(rows), min(VELOCITIES), max(VELOCITIES)
+    heavy = _percent(rows, 0.45, 0.3)
+    usual = _percent(rows, 0.3, 0.3)
+    light = _percent(rows, 0.0, 0.3)
+    where, greatest = _where(rows, 1.2), 100 * most.loss
     return Claim(
-        name="coupled",
-        title="Springs give the friction of a compressible body",
-        quote="In the limit of a very stiff system spring … Eq. (1) … thus appears to be valid independently of the"
-        " viscoelastic properties of the medium. … the obtained result in Eq. (15) is valid not only for the simple"
-        " considered model …, but also for quite general contacts. (Section 2.2.2)",
-        range=f"{len(rows)} points in three dimensions with all couplings: paraboloid and flat punch, elastic, ν = 0 to"
-        f" 0.45 (and next to 0.5 beside the table), μ_0 = 0.1 to 0.6, Δu_z/u_z0 = {ALPHA:g}, v_0/v_c from"
-        f" {min(VELOCITIES):g} to {max(VELOCITIES):g}; {tables.SETTINGS.cells}² cells and {tables.SETTINGS.steps}"
-        " steps, errors beside each (validation/half_space/tables/coupled.csv)",
-        measured=_measured(rows),
-        verdict="holds if Dundurs' β is zero: an incompressible body (ν = 0.5), or two bodies of the same material",
-        sentence="With ν < 0.5 under a rigid indenter pressing moves the surface radially. Friction is lower than that"
-        f" of the springs by {_percent(rows, 0.3, 0.3)} of μ_0 at ν = μ_0 = 0.3 and up to {100 * most.loss:.0f} % in"
-        " the table.",
+        "coupled",
+        **told(claim, locals()),
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
         figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),
-    )
-
-
-def _measured(rows: list[Row]) -> str:
-    return (
-        "Dundurs' β couples the two: where it vanishes, coupled and uncoupled runs agree. Where it does not, the"
-        " contact grows and shrinks with the surface rubbing radially under it, at up to λ = 2|β|/(π μ_0 κ) times the"
-        f" velocity of Eq. (1), and friction is lower than that of the springs. At most, by {_percent(rows, 0.45, 0.3)}"
-        f" of μ_0 at ν = 0.45, {_percent(rows, 0.3, 0.3)} at ν = 0.3 and {_percent(rows, 0.0, 0.3)} at ν = 0 (μ_0 ="
-        f" 0.3; paraboloid and punch). The loss is greatest at {_where(rows, 1.2)} for λ up to 1.2; for the largest λ"
-        f" it goes on growing down to {min(VELOCITIES):g} v_c, the lowest velocity that was tried. A core that is"
-        " shifted to the trailing edge sticks, and what slips around it slips outward as the contact grows."
     )
 
 
@@ -136,8 +140,14 @@ def _again_checks(rows: list[Row], quick: bool) -> Checks:
 
 
 @figure("cof", 2, 3, size=(10.2, 6.4), sharex=True, sharey=True)
-def _curve_figure(fig, panels, rows: list[Row]) -> str:
-    """Six panels of friction against velocity: four Poisson's ratios below the dashed springs."""
+def _curve_figure(fig, panels, rows: list[Row]):
+    """Six panels of friction against velocity: four Poisson's ratios below the dashed springs.
+
+    Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not know Poisson's
+    ratio. The more compressible the body and the smaller μ_0, the lower; ν = 0.5 is the dashed line itself. Ticks above
+    the curves: (1 + λ) v_c, about where stick ends, where this is below {fastest_shown:g} v_c. Friction is not full
+    there, nor beyond.
+    """
     for ax, (shape, mu_0) in zip(panels.flat, product(SHAPES, FRICTIONS), strict=True):
         for nu, colour in zip(RATIOS, COLOURS, strict=False):
             own = [r for r in rows if (r.point.shape, r.point.mu_0, r.point.nu) == (shape, mu_0, nu)]
@@ -152,23 +162,19 @@ def _curve_figure(fig, panels, rows: list[Row]) -> str:
     panels[0, 0].set_ylim(None, 1.065)
     outer_labels(panels, "$v_0$ over Eq. (1)", r"$\mu/\mu_0$")
     panels[0, 2].legend(loc="lower right")
-    return (
-        "Friction in three dimensions with coupling (dots) below that of the springs (dashed), which do not"
-        " know Poisson's ratio. The more compressible the body and the smaller μ_0, the lower; ν = 0.5 is the dashed"
-        " line itself. Ticks above the curves: (1 + λ) v_c, about where stick ends, where this is below"
-        f" {FASTEST_SHOWN:g} v_c. Friction is not full there, nor beyond."
-    )
+    return {"fastest_shown": FASTEST_SHOWN}
 
 
 @figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
-def _map_figure(fig, panels, cells: int, steps: int) -> str:
-    """Four maps of the contact over a period with regions of stick and arrows of slip."""
+def _map_figure(fig, panels, cells: int, steps: int):
+    """Four maps of the contact over a period with regions of stick and arrows of slip.
+
+    The contact of a paraboloid from above at {shown:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {alpha:g}). Dark: stick. Yellow:
+    slip, with arrows along the slip of the indenter, in each map as long as it is fast. While the depth grows (first
+    and second) what sticks is a region shifted to the trailing edge, and around it the indenter slips outward, over a
+    surface that is drawn to the middle; on retreat all slips, along the pull.
+    """
     case = contact("paraboloid", ALPHA, mu_0=0.3, nu=0.3)
     settings = Settings(cells, steps, cycles=2)
     pictures.period(panels, last_period(case, SHOWN * mdr.critical_velocity(case), settings))
-    return (
-        f"The contact of a paraboloid from above at {SHOWN:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {ALPHA:g}). Dark:"
-        " stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. While the"
-        " depth grows (first and second) what sticks is a region shifted to the trailing edge, and around it the"
-        " indenter slips outward, over a surface that is drawn to the middle; on retreat all slips, along the pull."
-    )
+    return {"shown": SHOWN, "alpha": ALPHA}

@@ -30,7 +30,7 @@ from validation.figures import figure, key, shape_keys
 from validation.half_space import tables
 from validation.half_space.tables import Column, Point, columns_of
 from validation.measured import worst
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 
 VELOCITIES = (3.0, 2.0, 1.5, 1.2, 1.0, 0.9, 0.8, 0.6, 0.4, 0.2)
 FITTED = (0.2, 0.4, 0.6, 0.8, 0.9, 1.0)  # v_0/v_c
@@ -119,7 +119,26 @@ def tried(columns: Iterable[Column], constants: dict[float | None, Array]) -> li
 
 
 def claim(effort: str) -> Claim:
-    """Fit to one shape at one amplitude, and try the rest."""
+    """The loss by coupling depends on two groups of β, and on what the springs lose at rest
+
+    How: Fit to one shape at one amplitude, and try the rest.
+
+    Range: fitted to {n_training} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried on
+    {n_rest} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like modulus, μ_0 from
+    0.05 to 0.6, λ from {least_rub:.2f} to {most_rub:.1f}; errors of the tables up to {worst_error:.2f} μ_0 at the
+    largest λ, and {usual_error:.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)
+
+    Measured: Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and rheologies
+    fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is large, on β^2/κ,
+    by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g} λ^2/({b:.3g} + λ) + {c:.3g}
+    β^2/κ]. Of the contacts it was not fitted to, the {n_within} with λ ≤ {coupling.LOSS.flat:g} have it to
+    {rms_percent:.0f} % (rms; worst {most_percent:.0f} %). Beyond, {further}
+
+    Verdict: holds if λ ≤ {coupling.LOSS.flat:g}
+
+    Sentence: Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ] of
+    μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {rms_percent:.0f} % (rms).
+    """
     if effort == "long":
         rows = tables.compute(held_out(), tables.SETTINGS)
         tables.write("coupling_held_out", rows, tables.SETTINGS, "shapes, amplitudes, rheology, two bodies")
@@ -133,24 +152,17 @@ def claim(effort: str) -> Claim:
     most, rms = max(abs(t.ratio - 1) for t in within), float(np.sqrt(np.mean([(t.ratio - 1) ** 2 for t in within])))
     a, b, c = constants[None]
     errors = [row.error for column in rest for row in column]
+    n_training = len(training)
+    n_rest = len(rest)
+    least_rub = min(t.groups.rub for t in trials)
+    most_rub = max(t.groups.rub for t in trials)
+    worst_error = max(errors)
+    usual_error = np.median(errors)
+    n_within, rms_percent, most_percent = len(within), 100 * rms, 100 * most
+    further = _beyond(beyond)
     return Claim(
-        name="coupling_law",
-        title="The loss by coupling depends on two groups of β, and on what the springs lose at rest",
-        quote="",
-        range=f"fitted to {len(training)} contacts (paraboloid, Δu_z/u_z0 = 0.3, elastic, λ ≤ {FARTHEST_FIT:g}); tried"
-        f" on {len(rest)} others: punch, cone and r^4, Δu_z/u_z0 from 0.1 to 1.5, ωτ up to 3, two bodies of like"
-        f" modulus, μ_0 from 0.05 to 0.6, λ from {min(t.groups.rub for t in trials):.2f} to"
-        f" {max(t.groups.rub for t in trials):.1f}; errors of the tables up to {max(errors):.2f} μ_0 at the largest λ,"
-        f" and {np.median(errors):.0e} in the median (validation/half_space/tables/coupled.csv, coupling_held_out.csv)",
-        measured="Divided by what the springs lose at rest, 1 − μ_s/μ_0, the losses of all shapes, amplitudes and"
-        " rheologies fall together, contact kept or lost. What is left depends on λ = 2|β|/(π μ_0 κ) and, where μ_0 is"
-        f" large, on β^2/κ, by which friction moves the surface down: greatest loss/μ_0 = (1 − μ_s/μ_0) [{a:.3g}"
-        f" λ^2/({b:.3g} + λ) + {c:.3g} β^2/κ]. Of the contacts it was not fitted to, the {len(within)} with λ ≤"
-        f" {coupling.LOSS.flat:g} have it to {100 * rms:.0f} % (rms; worst {100 * most:.0f} %). Beyond,"
-        f" {_beyond(beyond)}",
-        verdict=f"holds if λ ≤ {coupling.LOSS.flat:g}",
-        sentence=f"Springs overstate friction by at most about (1 − μ_s/μ_0)[{a:.2g} λ^2/({b:.2g} + λ) + {c:.2g} β^2/κ]"
-        f" of μ_0, λ = 2|β|/(π μ_0 κ), μ_s that of the springs at rest; good to {100 * rms:.0f} % (rms).",
+        "coupling_law",
+        **told(claim, locals()),
         checks=(*_constant_checks(constants[None]), *_trial_checks(within, beyond), *_group_checks(effort == "quick")),
         figures=(_collapse_figure(everything, constants[None]), _trial_figure(tried(training, constants), trials)),
         equations=(
@@ -224,8 +236,13 @@ def _group_checks(quick: bool) -> Checks:
 
 
 @figure("collapse", 1, 2, size=(9.8, 4.0))
-def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array) -> str:
-    """Left: points on a line through zero. Right: curves of loss against velocity nearly on one."""
+def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array):
+    """Left: points on a line through zero. Right: curves of loss against velocity nearly on one.
+
+    What springs are too high by in {n} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes, Δu_z/u_z0 from 0.1 to 1.5,
+    elastic and Kelvin. Left: the greatest loss of each, over a decade, goes with L_0, what the springs lose at rest.
+    Right: over L_0 the curves of all velocities fall together (Kelvin dashed).
+    """
     left, right = axes
     own = [column for column in columns if (column[0].point.nu, column[0].point.mu_0) == (0.3, 0.3)]
     first = Groups.of(own[0][0].point)
@@ -240,16 +257,17 @@ def _collapse_figure(fig, axes, columns: Sequence[Column], constants: Array) -> 
     left.legend(handles=[*shape_keys(ls="", ms=5), kelvin, key("the law", color="0.6")])
     left.set(xlim=(0, None), ylim=(0, None), xlabel="$L_0$", ylabel=r"greatest loss = (springs $-$ 3D)/$\mu_0$")
     right.set(xlim=(0, 2), xlabel="$v_0$ over Eq. (1)", ylabel="loss over $L_0$")
-    return (
-        f"What springs are too high by in {len(own)} contacts with ν = μ_0 = 0.3 (λ = 0.5): four shapes,"
-        " Δu_z/u_z0 from 0.1 to 1.5, elastic and Kelvin. Left: the greatest loss of each, over a decade, goes with L_0,"
-        " what the springs lose at rest. Right: over L_0 the curves of all velocities fall together (Kelvin dashed)."
-    )
+    return {"n": len(own)}
 
 
 @figure("trials", size=(6.2, 4.6))
-def _trial_figure(fig, ax, training: Iterable[Trial], trials: Iterable[Trial]) -> str:
-    """Scatter of the law against the computed loss over three decades, along the diagonal."""
+def _trial_figure(fig, ax, training: Iterable[Trial], trials: Iterable[Trial]):
+    """Scatter of the law against the computed loss over three decades, along the diagonal.
+
+    The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow beyond λ =
+    {flat:g}). Within the grey band it is good to {percent:.0f} %; below it hang flat punches at large λ, which lose
+    more than it says.
+    """
     ends = np.array([5e-4, 0.6])
     ax.fill_between(ends, ends * (1 - ALLOWED), ends * (1 + ALLOWED), color="0.92", label=f"± {100 * ALLOWED:.0f} %")
     ax.plot(ends, ends, color="0.6", lw=0.8)
@@ -265,8 +283,4 @@ def _trial_figure(fig, ax, training: Iterable[Trial], trials: Iterable[Trial]) -
     ax.loglog([], [], "o", color="0.4", mfc="w", label=rf"$\lambda$ > {coupling.LOSS.flat:g}")
     ax.set(xlabel=r"greatest loss in three dimensions, over $\mu_0$", ylabel=r"the law, over $\mu_0$")
     ax.legend(loc="upper left")
-    return (
-        "The law against three dimensions: crosses are what it was fitted to, dots what it was not (hollow"
-        f" beyond λ = {coupling.LOSS.flat:g}). Within the grey band it is good to {100 * ALLOWED:.0f} %; below it hang"
-        " flat punches at large λ, which lose more than it says."
-    )
+    return {"flat": coupling.LOSS.flat, "percent": 100 * ALLOWED}

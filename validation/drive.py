@@ -19,57 +19,60 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS
-from validation.cases import BODY, LOOKS, OMEGA, SHAPES, shaken, shape_label
-from validation.figures import figure
+from validation.cases import BODY, LOOKS, OMEGA, SHAPES, reach, shaken, shape_label
+from validation.figures import COLOURS, figure, panel
 from validation.measured import with_band
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 
 ALPHA, QUARTER = 0.5, math.pi / 2  #: of the figure; phase of the shake
 RUN = "what a run promises when it chooses step and springs itself"
 
 
 def claim(effort: str) -> Claim:
-    """Ends of the characteristic beside the law of a stiff contact, and the account of energy along it."""
+    """Shaken along the slide a quarter of a period ahead of its depth, a contact drives itself
+
+    How: Ends of the characteristic beside the law of a stiff contact, and the account of energy along it.
+
+    Quote: … with many applications ranging from wire drawing and press forming … and production of directed motion, as
+    in ultrasonic motors and linear actuators. (Section 1)
+
+    Range: Elastic flat punch, cone, paraboloid and r^4, Δu_z/u_z0 = {ALPHA:g} (0.2 to 0.9 for the punch), longitudinal
+    amplitude from 0.1 to 120 times μ_0 κ u_z0, a quarter of a period ahead; rigid pull and a body on a spring.
+
+    Measured: A contact is stiff here if its springs yield far less than Δu_x. Held, a stiff flat face pushes with
+    (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r = (Δu_z/u_z0) √(1 − r^2). Curved shapes push more,
+    since their force changes more with depth: a stiff elastic cone with (4α/π)/(1 + α^2/2) of μ_0 F_N, α = Δu_z/u_z0.
+    Springs that yield take of both, and come to this like one over the amplitude. Between the two ends friction rises
+    with velocity throughout, so that every load below the blocked one has one velocity. The best efficiency is
+    {best_soft:.2f} at Δu_x = 3 μ_0 κ u_z0 and {best_stiff:.2f} at 30: what is not given out is lost to slip, as the
+    account of three drives closes. Below some longitudinal amplitude the contact holds zero load and does not drive at
+    all. Half a period later it pushes the other way. In phase it pushes weakly, because the springs need some travel to
+    reverse at the two ends of the shake, and are pressed more at one end than at the other: (4/3π) [(1 + α)^1.5 − (1 −
+    α)^1.5] (μ_0 κ u_z0/Δu_x)^½ of μ_0 F_N, backward, which vanishes far more slowly than all else.
+
+    Verdict: holds
+
+    Sentence: A contact drives itself if it does not hold zero load at rest. A stiff flat punch pushes with (2/π)α μ_0
+    F_N and runs at r ω Δu_x, arcsin r = α √(1 − r^2), α = Δu_z/u_z0; curved shapes push more.
+    """
     quick = effort == "quick"
-    best = {chi: _best(chi) for chi in (3.0, 30.0)}
+    best_soft, best_stiff = _best(3.0), _best(30.0)
     return Claim(
-        name="drive",
-        title="Shaken along the slide a quarter of a period ahead of its depth, a contact drives itself",
-        quote="… with many applications ranging from wire drawing and press forming … and production of directed"
-        " motion, as in ultrasonic motors and linear actuators. (Section 1)",
-        range=f"Elastic flat punch, cone, paraboloid and r^4, Δu_z/u_z0 = {ALPHA:g} (0.2 to 0.9 for the punch),"
-        " longitudinal amplitude from 0.1 to 120 times μ_0 κ u_z0, a quarter of a period ahead; rigid pull and a body"
-        " on a spring.",
-        measured="A contact is stiff here if its springs yield far less than Δu_x. Held, a stiff flat face pushes with"
-        " (2/π)(Δu_z/u_z0) μ_0 F_N; free, it runs at r ω Δu_x with arcsin r = (Δu_z/u_z0) √(1 − r^2). Curved shapes"
-        " push more, since their force changes more with depth: a stiff elastic cone with (4α/π)/(1 + α^2/2) of μ_0"
-        " F_N, α = Δu_z/u_z0. Springs that yield take of both, and come to this like one over the amplitude. Between"
-        " the two ends friction rises with velocity throughout, so that every load below the blocked one has one"
-        f" velocity. The best efficiency is {best[3.0]:.2f} at Δu_x = 3 μ_0 κ u_z0 and {best[30.0]:.2f} at 30: what is"
-        " not given out is lost to slip, as the account of three drives closes. Below some longitudinal amplitude the"
-        " contact holds zero load and does not drive at all. Half a period later it pushes the other way. In phase it"
-        " pushes weakly, because the springs need some travel to reverse at the two ends of the shake, and are pressed"
-        " more at one end than at the other: (4/3π) [(1 + α)^1.5 − (1 − α)^1.5] (μ_0 κ u_z0/Δu_x)^½ of μ_0 F_N,"
-        " backward, which vanishes far more slowly than all else.",
-        verdict="holds",
-        sentence="A contact drives itself if it does not hold zero load at rest. A stiff flat punch pushes with (2/π)α"
-        " μ_0 F_N and runs at r ω Δu_x, arcsin r = α √(1 − r^2), α = Δu_z/u_z0; curved shapes push more.",
+        "drive",
+        **told(claim, locals()),
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
         figures=(_figure(quick),),
     )
 
 
 def _stiff_checks() -> Checks:
-    sizes = (30.0, 120.0)
+    sizes, why = (30.0, 120.0), "springs yield by μ_0 κ u_z0 (1 + Δu_z/u_z0) at most, over the amplitude"
     for alpha in (0.2, 0.5, 0.9):
-        law = laws.elliptic_drive(alpha)
+        law, where = laws.elliptic_drive(alpha), f"Δu_z/u_z0 = {alpha:g}, Δu_x = {sizes[1]:g} μ_0 κ u_z0"
         cases = [shaken("flat punch", alpha, chi, QUARTER) for chi in sizes]
         pushes = [-mdr.blocked_cof(case) / case.mu_0 - law.blocked for case in cases]
-        units = [OMEGA * chi * _reach(case) for case, chi in zip(cases, sizes, strict=True)]
+        units = [OMEGA * chi * reach(case) for case, chi in zip(cases, sizes, strict=True)]
         frees = [mdr.no_load_velocity(case) / unit - law.free for case, unit in zip(cases, units, strict=True)]
-        why = "springs yield by μ_0 κ u_z0 (1 + Δu_z/u_z0) at most, over the amplitude"
-        where = f"Δu_z/u_z0 = {alpha:g}, Δu_x = {sizes[1]:g} μ_0 κ u_z0"
         yield Check(f"blocked push over μ_0 F_N, less (2/π) α: {where}", pushes[1], 0.0, 2 / sizes[1], why)
         yield Check(f"velocity without load over ω Δu_x, less r: {where}", frees[1], 0.0, 2 / sizes[1], why)
         for name, off in (("push", pushes), ("velocity", frees)):
@@ -78,13 +81,8 @@ def _stiff_checks() -> Checks:
             yield Check.at_most(name, power, -0.9, "at least like one over the amplitude, to the next order")
         cone = shaken("cone", alpha, sizes[1], QUARTER)
         known = (4 * alpha / math.pi) / (1 + alpha**2 / 2)  # force ~ depth squared: mean of sign(cos) (1 + a cos)²
-        name = f"blocked push of a cone over μ_0 F_N: {where}"
-        yield Check(name, -mdr.blocked_cof(cone) / cone.mu_0, known, 2 / sizes[1], why)
-
-
-def _reach(case: mdr.SlidingContact) -> float:
-    """mu_0 kappa u_z0 [m]."""
-    return float(case.mu_0 * case.material.mindlin_ratio * case.cycle.u_z0)
+        got = -mdr.blocked_cof(cone) / cone.mu_0
+        yield Check(f"blocked push of a cone over μ_0 F_N: {where}", got, known, 2 / sizes[1], why)
 
 
 def _curve_checks(quick: bool) -> Checks:
@@ -127,8 +125,8 @@ def _side_checks() -> Checks:
     one, other = (mdr.blocked_cof(shaken("paraboloid", ALPHA, 5.0, phi)) / 0.5 for phi in (QUARTER, -QUARTER))
     yield Check("push at rest with the phase turned, added to that before, over μ_0 F_N", one + other, 0.0, 2e-5, RUN)
     for phi, way in ((0.0, 1), (math.pi, -1)):
-        name = f"COF/μ_0 at rest times the root of Δu_x/(μ_0 κ u_z0) = 120, way in phase {phi / math.pi:g} π:"
-        name += " flat punch"
+        where = f"way in phase {phi / math.pi:g} π: flat punch"
+        name = f"COF/μ_0 at rest times the root of Δu_x/(μ_0 κ u_z0) = 120, {where}"
         push = mdr.blocked_cof(shaken("flat punch", ALPHA, 120.0, phi)) / 0.5
         known = way * 4 / (3 * math.pi) * ((1 + ALPHA) ** 1.5 - (1 - ALPHA) ** 1.5)
         why = "springs turn over while the way turns back, which takes a time like the root; the next order is 1/120"
@@ -140,36 +138,35 @@ def _side_checks() -> Checks:
 
 
 @figure("drive", 1, 3, size=(13.2, 4.3))
-def _figure(fig, axes, quick: bool) -> str:
-    """Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake"""
-    curves, well, ends = axes
+def _figure(fig, axes, quick: bool):
+    """Three panels: friction over velocity; efficiency over velocity; push over the amplitude of the shake
+
+    Elastic contacts, Δu_z/u_z0 = {alpha:g}, shaken along the slide a quarter of a period ahead of the depth, χ =
+    Δu_x/(μ_0 κ u_z0). Left: the characteristic of a flat punch crosses zero at its velocity without load; stars are the
+    law of a stiff contact. Middle: efficiency between held and free. Right: the push where it is held: nothing at small
+    amplitude, where zero load is still held, and for the flat punch the dotted law of a stiff face at great amplitude;
+    curved shapes push more.
+    """
+    (curves, well, ends), velocity = axes, r"$v_0/(\omega\Delta u_x)$"
     r = np.linspace(-0.2, 1.05, 16 if quick else 40)
     chis = np.geomspace(0.5, 50, 7 if quick else 14)
     law = laws.elliptic_drive(ALPHA)
     for chi, colour in zip((1.0, 3.0, 30.0), COLOURS, strict=False):
         case = shaken("flat punch", ALPHA, chi, QUARTER)
-        curves.plot(*with_band(case, r, OMEGA * chi * _reach(case)), color=colour, label=rf"$\chi = {chi:g}$")
+        unit = OMEGA * chi * reach(case)
+        curves.plot(*with_band(case, r, unit), color=colour, label=rf"$\chi = {chi:g}$")
         v = np.linspace(0, 1, 9 if quick else 17) * mdr.no_load_velocity(case)
         out = [_efficiency(mdr.slide(case, one).energy_balance) if one else 0.0 for one in v]
-        well.plot(v / (OMEGA * chi * _reach(case)), out, color=colour)
+        well.plot(v / unit, out, color=colour)
     curves.plot(0, -law.blocked, "k*", ms=9, label="stiff contact")
     curves.plot(law.free, 0, "k*", ms=9)
     curves.axhline(0, color="0.75", lw=0.8)
-    curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="force over velocity, flat punch")
-    curves.legend(loc="upper left")
-    well.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel="efficiency", title="power out over power of the drives")
+    panel(curves, velocity, r"$\mu/\mu_0$", "force over velocity, flat punch", legend="upper left")
+    panel(well, velocity, "efficiency", "power out over power of the drives")
     for shape, (colour, marker) in LOOKS.items():
         cases = [shaken(shape, ALPHA, chi, QUARTER) for chi in chis]
         push = [max(-mdr.holding_band(case).high, 0.0) / case.mu_0 for case in cases]
         ends.plot(chis, push, marker, ls="-", lw=1, color=colour, label=shape_label(shape))
     ends.axhline(law.blocked, color="k", lw=1, ls=":")
-    ends.set(xscale="log", xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", title="held")
-    ends.set_ylabel(r"push at rest over $\mu_0F_N$")
-    ends.legend()
-    return (
-        f"Elastic contacts, Δu_z/u_z0 = {ALPHA:g}, shaken along the slide a quarter of a period ahead of the depth, χ ="
-        " Δu_x/(μ_0 κ u_z0). Left: the characteristic of a flat punch crosses zero at its velocity without load; stars"
-        " are the law of a stiff contact. Middle: efficiency between held and free. Right: the push where it is held:"
-        " nothing at small amplitude, where zero load is still held, and for the flat punch the dotted law of a stiff"
-        " face at great amplitude; curved shapes push more."
-    )
+    panel(ends, r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", r"push at rest over $\mu_0F_N$", "held", "x", "best")
+    return {"alpha": ALPHA}

@@ -42,7 +42,7 @@ from validation.figures import figure
 from validation.half_space import pictures, tables
 from validation.half_space.last_stick import fastest
 from validation.half_space.tables import Point
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 from validation.words import counted, percent, ranged, span
 
 Known = tuple[str, float, float, float]  #: shape, nu, mu_0, alpha
@@ -84,48 +84,53 @@ _EQUATIONS = (
 
 
 def claim(effort: str) -> Claim:
-    """Search the end of stick, set it beside the linear problem, and go far beyond."""
+    """On a compressible body stick ends at Eq. (1), and friction is full above it
+
+    How: Search the end of stick, set it beside the linear problem, and go far beyond.
+
+    Quote: Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at some
+    critical velocity. (Section 3)
+
+    Range: {contacts} under a rigid pull, ν {nus}, μ_0 {frictions}, Δu_z/u_z0 {amplitudes}, on {cells}² cells and
+    {STEPS} steps; stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α
+
+    Measured: Eq. (1) is not where stick ends. The last of it is a crescent at the trailing edge, at the instant when
+    the depth grows fastest: there the surface, drawn to the middle, keeps up with the pull. It shrinks with velocity,
+    and is gone on these cells at (v_s/v_c − 1)/λ = {shares}; found to {FOUND:g}, in steps that change it by as much. On
+    twice as many cells a side v_s of the linear problem is {finer_percent} {finer_way}. To lowest order in μ_0 it is
+    v_c(1 + λ), from the radial velocity of the surface at the edge; friction adds to it by what it does to the
+    pressure. Above, nothing sticks, and friction is still short of μ_0, as radial slip turns it away from the pull. The
+    law (**) of this loss holds for velocities well above v_c/α, with <i>M</i> = {MEANS[paraboloid]:.2f} of a paraboloid
+    and {MEANS[flat punch]:.2f} of a punch. Before, it is {before_punch:.2f} of that at 2 v_c for a punch at Δu_z/u_z0 =
+    0.1, where friction has not the way to turn, and {before_paraboloid:.2f} times it for a paraboloid at 0.9.
+
+    Verdict: holds if β = 0
+
+    Sentence: Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to {off_percent:.0f} %), last at the trailing edge
+    if β > 0; above, radial slip turns friction aside, and there is no velocity at which it is full.
+    """
     quick = effort == "quick"
     cells = 17 if quick else 31
     ends = {known: end(*known, cells) for known in (ENDS[:1] if quick else ENDS)}
     seen = _map(21 if quick else 41, 24 if quick else 60)
-    return Claim(
-        name="end_of_stick",
-        title="On a compressible body stick ends at Eq. (1), and friction is full above it",
-        quote="Second, the coefficient of friction increases monotonically … until it reaches the microscopic value at"
-        " some critical velocity. (Section 3)",
-        range=f"{counted(len(ends), 'elastic contact')} under a rigid pull, ν {ranged(k[1] for k in ends)}, μ_0"
-        f" {ranged(k[2] for k in ends)}, Δu_z/u_z0 {ranged(k[3] for k in ends)}, on {cells}² cells and {STEPS} steps;"
-        f" stick of the tables of validation/half_space/tables; the COF up to {FAST:g} v_c/α",
-        measured=_measured(ends, cells),
-        verdict="holds if β = 0",
-        sentence="Something sticks up to about (μ_0 κ + 2|β|/π) Δu_z ω (to"
-        f" {100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items()):.0f} %), last at the trailing edge if β >"
-        " 0; above, radial slip turns friction aside, and there is no velocity at which it is full.",
-        checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
-        figures=(_end_figure(ends, cells), _map_figure(seen)),
-        equations=_EQUATIONS,
-    )
-
-
-def _measured(ends: dict[Known, float], cells: int) -> str:
     by_mu = {
         mu_0: [(v - 1) / _rub(k) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})
     }
-    listed = "; ".join(f"{span(one, 3)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
+    shares = "; ".join(f"{span(one, 3)} at μ_0 = {mu_0:g}" for mu_0, one in by_mu.items())
     finer = fastest(cells, 0.3, 0.3, False), fastest(2 * cells + 1, 0.3, 0.3, False)
-    return (
-        "Eq. (1) is not where stick ends. The last of it is a crescent at the trailing edge, at the instant when the"
-        " depth grows fastest: there the surface, drawn to the middle, keeps up with the pull. It shrinks with"
-        f" velocity, and is gone on these cells at (v_s/v_c − 1)/λ = {listed}; found to {FOUND:g}, in steps that change"
-        " it by as much. On twice as many cells a side v_s of the linear problem is"
-        f" {percent(abs(finer[1] / finer[0] - 1), 1)} {'higher' if finer[1] > finer[0] else 'lower'}. To lowest order"
-        " in μ_0 it is v_c(1 + λ), from the radial velocity of the surface at the edge;"
-        " friction adds to it by what it does to the pressure. Above, nothing sticks, and friction is still short of"
-        " μ_0, as radial slip turns it away from the pull. The law (**) of this loss holds for velocities well above"
-        f" v_c/α, with <i>M</i> = {MEANS['paraboloid']:.2f} of a paraboloid and {MEANS['flat punch']:.2f} of a punch."
-        f" Before, it is {_before(0.1, 'flat punch'):.2f} of that at 2 v_c for a punch at Δu_z/u_z0 = 0.1, where"
-        f" friction has not the way to turn, and {_before(0.9, 'paraboloid'):.2f} times it for a paraboloid at 0.9."
+    contacts, nus = counted(len(ends), "elastic contact"), ranged(k[1] for k in ends)
+    frictions, amplitudes = ranged(k[2] for k in ends), ranged(k[3] for k in ends)
+    finer_percent = percent(abs(finer[1] / finer[0] - 1), 1)
+    finer_way = "higher" if finer[1] > finer[0] else "lower"
+    before_punch = _before(0.1, "flat punch")
+    before_paraboloid = _before(0.9, "paraboloid")
+    off_percent = 100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items())
+    return Claim(
+        "end_of_stick",
+        **told(claim, locals()),
+        checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
+        figures=(_end_figure(ends, cells), _map_figure(seen)),
+        equations=_EQUATIONS,
     )
 
 
@@ -231,8 +236,12 @@ def _tail_checks(quick: bool) -> Checks:
 
 
 @figure("ends", size=(6.2, 4.4))
-def _end_figure(fig, ax, ends: dict[Known, float], cells: int) -> str:
-    """Scatter of the end of stick against one plus lambda, along the diagonal."""
+def _end_figure(fig, ax, ends: dict[Known, float], cells: int):
+    """Scatter of the end of stick against one plus lambda, along the diagonal.
+
+    The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear problem on the
+    same cells, friction free to turn (lower end) and fixed in its direction (upper end).{off_the_line}
+    """
     line = np.array([1.0, 2.7])
     ax.plot(line, line, "-", color="0.6", lw=0.9, label=r"$(1 + \lambda) v_c$")
     for known, ratio in ends.items():
@@ -246,23 +255,18 @@ def _end_figure(fig, ax, ends: dict[Known, float], cells: int) -> str:
     ax.plot([], [], "-", color=LOOKS["flat punch"][0], lw=6, alpha=0.3, label="linear problem, its two limits")
     ax.set(xlabel=r"$1 + \lambda$", ylabel="velocity at which stick ends, over Eq. (1)")
     ax.legend()
-    told = (
-        "The velocity at which the last cell stops to stick, against the estimate (line). Bars: the linear"
-        " problem on the same cells, friction free to turn (lower end) and fixed in its direction (upper end)."
-    )
-    if len(ends) > 2:
-        told += " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem"
-        told += " ends."
-    return told
+    off = " Above the line: large μ_0; below it: large λ, where the slip is not small and the linear problem ends."
+    return {"off_the_line": off if len(ends) > 2 else ""}
 
 
 @figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
-def _map_figure(fig, panels, found: LastPeriod) -> str:
-    """Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip."""
+def _map_figure(fig, panels, found: LastPeriod):
+    """Four maps of the contact over a period, with a crescent of stick in the first and arrows of slip.
+
+    The contact of a paraboloid from above at {above:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3). Dark: stick.
+    Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. A crescent at the
+    trailing edge sticks as the depth grows fastest (first): there the surface, drawn to the middle, keeps up with the
+    pull. No spring sticks at this velocity.
+    """
     pictures.period(panels, found)
-    return (
-        f"The contact of a paraboloid from above at {ABOVE:g} v_c (Eq. (1); ν = μ_0 = 0.3, Δu_z/u_z0 = 0.3)."
-        " Dark: stick. Yellow: slip, with arrows along the slip of the indenter, in each map as long as it is fast. A"
-        " crescent at the trailing edge sticks as the depth grows fastest (first): there the surface, drawn to the"
-        " middle, keeps up with the pull. No spring sticks at this velocity."
-    )
+    return {"above": ABOVE}

@@ -21,13 +21,12 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.full_slip import normal_force_harmonics
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import SWUNG, contact, loss
-from validation.figures import figure, ticks
+from validation.figures import COLOURS, figure, ticks
 from validation.full_slip import full_slip
 from validation.measured import power
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import span
 
 # a factor of 16, without common factors, so that kinks fall anywhere
@@ -94,7 +93,22 @@ def in_full_slip(case: mdr.SlidingContact, v_0: float) -> dict[str, float]:
 
 
 def claim(effort: str) -> Claim:
-    """Balance the energies of sticking and slipping contacts, and set those of full slip beside their closed forms."""
+    """Energy is conserved
+
+    How: Balance the energies of sticking and slipping contacts, and set those of full slip beside their closed forms.
+
+    Range: {shapes}, contact kept (but for the edge of a curved shape) and lost, elastic and ωτ = 1, rigid pull and
+    spring pull with a damper, {n_shares} velocities below v_c; {LEVELS[0]} to {most_steps} steps. Full slip at 1.5 v_c
+
+    Measured: Under a rigid pull the balance closes to rounding, {rounding:.1e} of the losses. With a body what is
+    missing falls with the power {orders_found} of the step and is at most {finest:.1e} of the losses at {most_steps}
+    steps; in full slip every term agrees with its closed form.
+
+    Verdict: holds
+
+    Sentence: What the pull and the normal drive supply is found again as friction, viscous and damper loss, each from
+    its own definition.
+    """
     grid = [("flat punch", 0.3), ("paraboloid", 0.3), ("paraboloid", 1.5)]
     if effort == "quick":
         grid = grid[1:]
@@ -103,19 +117,12 @@ def claim(effort: str) -> Claim:
     orders = [b.order for b in balances if not b.exact]
     finest = max(float(b.residual[-1]) for b in balances)
     rounding = max(float(np.max(b.residual)) for b in balances if b.exact)
+    shapes = " and ".join(dict.fromkeys(shape for shape, _ in grid))
+    n_shares = len(SHARES[effort])
+    most_steps, orders_found = LEVELS[-1], span(orders)
     return Claim(
-        name="energy",
-        title="Energy is conserved",
-        quote="",
-        range=f"{' and '.join(dict.fromkeys(shape for shape, _ in grid))}, contact kept (but for the edge of a curved"
-        f" shape) and lost, elastic and ωτ = 1, rigid pull and spring pull with a damper, {len(SHARES[effort])}"
-        f" velocities below v_c; {LEVELS[0]} to {LEVELS[-1]} steps. Full slip at 1.5 v_c",
-        measured=f"Under a rigid pull the balance closes to rounding, {rounding:.1e} of the losses. With a body what is"
-        f" missing falls with the power {span(orders)} of the step and is at most {finest:.1e} of the losses at"
-        f" {LEVELS[-1]} steps; in full slip every term agrees with its closed form.",
-        verdict="holds",
-        sentence="What the pull and the normal drive supply is found again as friction, viscous and damper loss, "
-        "each from its own definition.",
+        "energy",
+        **told(claim, locals()),
         checks=(*_balance_checks(balances), *_full_slip_checks(effort)),
         figures=(_figure(balances),),
     )
@@ -161,9 +168,13 @@ def _slipping(shape: str, T: float) -> tuple[mdr.SlidingContact, mdr.SlidingRun]
 
 
 @figure("balance", 1, 2, size=(9.8, 4.2), width_ratios=(1.2, 1))
-def _figure(fig, axes, balances: list[Balance]) -> str:
-    """Stacked bars of energies supplied and lost, of equal length, and residuals: with a body falling with the second
-    power of the steps, under a rigid pull at rounding.
+def _figure(fig, axes, balances: list[Balance]):
+    """Stacked bars of energies supplied and lost, of equal length, and residuals: with a body falling with the
+    second power of the steps, under a rigid pull at rounding.
+
+    Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at half of
+    v_c, paraboloid, ωτ = 1; the bars end together. Right: what is missing, for all {n} contacts: with a body it falls
+    with the second power of the step, else it is rounding.
     """
     bars, ax = axes
     _draw_bars(bars, [b for b in balances if b.name.startswith("paraboloid") and "ωτ = 1" in b.name])
@@ -179,11 +190,7 @@ def _figure(fig, axes, balances: list[Balance]) -> str:
     ax.set(xscale="log", yscale="log", xlabel="steps per period", ylabel="missing, over the losses")
     ticks(ax.xaxis, 64, 128, 256, 512, 1024)
     ax.legend(loc="lower left")
-    return (
-        "Left: what the pull and the normal drive supply in a period (upper bar) and where it goes (lower bar), at "
-        "half of v_c, paraboloid, ωτ = 1; the bars end together. Right: what is missing, for all "
-        f"{len(balances)} contacts: with a body it falls with the second power of the step, else it is rounding."
-    )
+    return {"n": len(balances)}
 
 
 def _draw_bars(ax: Any, balances: list[Balance]) -> None:

@@ -18,7 +18,6 @@ indenter, U amplitude of a loop, n number of springs.
 
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
@@ -26,11 +25,10 @@ import mdr
 from mdr.friction.surface_fields import SurfaceFields, from_line_load, surface_fields
 from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, LOOKS, OMEGA, RADIUS, SHAPES, E, contact, shape_label
-from validation.figures import circles, figure
-from validation.report import Check, Checks, Claim
+from validation.figures import COLOURS, circles, figure
+from validation.report import Check, Checks, Claim, told
 
 BODY = mdr.Elastic(E=E, nu=0.5)
 MU_0 = 0.5
@@ -97,22 +95,28 @@ def off(got: Array, expected: Array, weight: Array) -> float:
 
 
 def claim(effort: str) -> Claim:
-    """Set tractions, loops and sums beside the textbook."""
+    """The springs give the tractions of the three-dimensional contact
+
+    How: Set tractions, loops and sums beside the textbook.
+
+    Range: flat punch, cone, paraboloid and r^4 at a depth of 20 µm, pulled until all springs slip, and back; rows of
+    {n} springs, and the springs of a sliding run
+
+    Measured: The traction of springs that stick and slip one by one is Cattaneo's and Mindlin's to {off_mindlin:.0e} in
+    the mean square; pressures and tractions add up to F_N and F_x; every shape obeys Masing's rule to rounding, and the
+    loops of the paraboloid cost what Mindlin and Deresiewicz say.
+
+    Verdict: holds
+
+    Sentence: Pressure, traction, stick radius, surface displacement and the loss of a loop follow from the springs as
+    contact mechanics has them.
+    """
     n = N_SPRINGS[effort]
     checks = (*_mindlin_checks(n), *_run_checks(), *_sum_checks(), *_loop_checks(n), *_surface_checks())
+    off_mindlin = max(float(c.got or 0) for c in checks if "one by one" in c.name)
     return Claim(
-        name="fields",
-        title="The springs give the tractions of the three-dimensional contact",
-        quote="",
-        range=f"flat punch, cone, paraboloid and r^4 at a depth of 20 µm, pulled until all springs slip, and back; "
-        f"rows of {n} springs, and the springs of a sliding run",
-        measured=f"The traction of springs that stick and slip one by one is Cattaneo's and Mindlin's to "
-        f"{max(float(c.got or 0) for c in checks if 'one by one' in c.name):.0e} in the mean square; pressures and "
-        f"tractions add up to F_N and F_x; every shape obeys Masing's rule to rounding, and the loops of the "
-        f"paraboloid cost what Mindlin and Deresiewicz say.",
-        verdict="holds",
-        sentence="Pressure, traction, stick radius, surface displacement and the loss of a loop follow from "
-        "the springs as contact mechanics has them.",
+        "fields",
+        **told(claim, locals()),
         checks=checks,
         figures=(_traction_figure(), _loop_figure()),
     )
@@ -144,8 +148,8 @@ def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
     The oscillation is a thousandth of the depth, and small beside the pull.
     """
     case = contact("paraboloid", 1e-3, mu_0=MU_0)
-    knobs: Any = {"steps_per_period": 256, "n_periods": 1, "start": "rest", "record": 1, "lump": False}
-    run: Any = mdr.slide(case, 0.5 * FULL * OMEGA / (2 * np.pi), n_springs=n_springs, **knobs)
+    knobs = {"steps_per_period": 256, "n_periods": 1, "start": "rest", "record": 1, "lump": False}
+    run = mdr.slide(case, 0.5 * FULL * OMEGA / (2 * np.pi), n_springs=n_springs, **knobs)
     d_c = float(run.u_z[-1]) - float(run.u_x[-1]) / (MU_0 * BODY.mindlin_ratio)
     c = float(SHAPES["paraboloid"].contact_radius(d_c))
     r, _ = disc(c)
@@ -227,8 +231,13 @@ def _surface_checks() -> Checks:
 
 
 @figure("traction", 1, 2, size=(9.4, 4.3))
-def _traction_figure(fig, axes) -> str:
-    """Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii."""
+def _traction_figure(fig, axes):
+    """Tangential traction over radius, lines through circles for the paraboloid, and four shapes with stick radii.
+
+    Left: tractions under a paraboloid pulled sideways; lines from springs that stick and slip one by one, circles
+    Cattaneo and Mindlin. Right: the four shapes at half of full slip; within the dotted radius the surface sticks, and
+    the punch sticks as a whole.
+    """
     left, right = axes
     r, some = RADIUS * np.linspace(0, 1.0, 601)[:-1], RADIUS * np.linspace(0.02, 0.98, 17)
     for share, colour in zip(SHARES, COLOURS, strict=False):
@@ -250,16 +259,16 @@ def _traction_figure(fig, axes) -> str:
             right.plot([c / RADIUS] * 2, [0, np.interp(c, r[1:], tau)], color=LOOKS[shape][0], lw=1, ls=":")
     right.set(ylabel=r"traction over $\mu_0 F_N/\pi a^2$", title="half of full slip", ylim=(0, 2.2))
     right.legend()
-    return (
-        "Left: tractions under a paraboloid pulled sideways; lines from springs that stick and slip one by one, "
-        "circles Cattaneo and Mindlin. Right: the four shapes at half of full slip; within the dotted radius the "
-        "surface sticks, and the punch sticks as a whole."
-    )
 
 
 @figure("loops", 1, 2, size=(9.4, 4.3))
-def _loop_figure(fig, axes) -> str:
-    """Hysteresis loops of four shapes, and loss against amplitude on logarithmic axes."""
+def _loop_figure(fig, axes):
+    """Hysteresis loops of four shapes, and loss against amplitude on logarithmic axes.
+
+    Left: to and fro at fixed depth; lines by Masing's rule, circles springs one by one. Right: its cost, below full
+    slip (dotted, displacement u_s) the third power of the amplitude for the curved shapes, while the punch, which
+    sticks as a whole, loses nothing.
+    """
     left, right = axes
     for shape, indenter in SHAPES.items():
         colour = LOOKS[shape][0]
@@ -278,8 +287,3 @@ def _loop_figure(fig, axes) -> str:
     right.set_title("loss in a loop")
     right.axvline(1, color="0.6", lw=1, ls=":")
     fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return (
-        "Left: to and fro at fixed depth; lines by Masing's rule, circles springs one by one. Right: its cost, "
-        "below full slip (dotted, displacement u_s) the third power of the amplitude for the curved shapes, "
-        "while the punch, which sticks as a whole, loses nothing."
-    )

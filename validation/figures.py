@@ -1,36 +1,62 @@
 """One way to make the figure of a claim: panels in the style of the library, what is drawn on them, words for both."""
 
-from collections.abc import Callable
+import inspect
+import re
+from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any
 
-from mdr.plots import style
+from mdr.plots import COLOURS, style
 from validation.cases import LOOKS, shape_label
 from validation.report import Figure
 
 
 def figure(
     name: str, rows: int = 1, columns: int = 1, size: tuple[float, float] | None = None, **panels: Any
-) -> Callable[[Callable[..., str]], Callable[..., Figure]]:
-    """Decorator of a function draw(fig, axes, ...) that draws on axes of `plt.subplots` and returns the caption.
+) -> Callable[[Callable[..., Any]], Callable[..., Figure]]:
+    """Decorator of a function draw(fig, axes, ...) that draws on axes of `plt.subplots`.
 
-    The docstring of draw says what there is to see, for those who cannot see it. The decorated function takes the
-    further arguments alone, and returns the Figure.
+    The docstring of draw says first what there is to see, for those who cannot see it; then, after an empty line, comes
+    the caption. Names in braces in the caption are numbers, or words, that draw returns as a dict; a text
+    that draw returns takes the place of the caption. The decorated function takes the further arguments alone, and
+    returns the Figure.
     """
 
-    def decorated(draw: Callable[..., str]) -> Callable[..., Figure]:
+    def decorated(draw: Callable[..., Any]) -> Callable[..., Figure]:
         @wraps(draw)
         def made(*args: Any) -> Figure:
             import matplotlib.pyplot as plt
 
+            alt, _, caption = re.sub(r"(?<!\n)\n(?!\n)", " ", inspect.getdoc(draw) or "").partition("\n\n")
             with style():
                 fig, axes = plt.subplots(rows, columns, figsize=size, **panels)
-                caption = draw(fig, axes, *args)
-            return Figure(name, caption, fig, " ".join((draw.__doc__ or "").split()))
+                told = draw(fig, axes, *args)
+            return Figure(name, told if isinstance(told, str) else caption.format(**told or {}), fig, alt)
 
         return made
 
     return decorated
+
+
+def panel(
+    axes: Any, x: str = "", y: str = "", title: str = "", log: str = "", legend: Any = None, **limits: Any
+) -> None:
+    """Labels of an axis, or of a row of axes whose first one has y; log: axes of a logarithmic scale, "x", "y", "xy".
+
+    legend: where it stands ("best"), or the keywords of a legend. limits and all else are those of `Axes.set`.
+    """
+    for ax in axes if (row := hasattr(axes, "__iter__")) else [axes]:
+        scales = {f"{one}scale": "log" for one in log}
+        words = {"xlabel": x, "ylabel": y if not row or ax is axes[0] else "", "title": title}
+        ax.set(**scales, **{key: text for key, text in words.items() if text}, **limits)
+        if legend:
+            ax.legend(**(legend if isinstance(legend, Mapping) else {"loc": legend}))
+
+
+def lines(ax: Any, x: Any, curves: Mapping[str, Any], line: str = "-", **look: Any) -> None:
+    """A line for each label, in the colours of the library."""
+    for (label, y), colour in zip(curves.items(), COLOURS, strict=False):
+        ax.plot(x, y, line, color=colour, label=label, **look)
 
 
 def circles(ax: Any, x: Any, y: Any, colour: str, **look: Any) -> None:
@@ -56,6 +82,11 @@ def outer_labels(panels: Any, x: str, y: str) -> None:
         ax.set_xlabel(x)
     for ax in panels[:, 0]:
         ax.set_ylabel(y)
+
+
+def below(fig: Any, ax: Any, ncols: int) -> None:
+    """The legend of an axis below all panels."""
+    fig.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=ncols)
 
 
 def ticks(axis: Any, *places: float) -> None:

@@ -15,13 +15,12 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms import paper as theory
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, widest_cell
-from validation.figures import circles, figure, ticks
+from validation.figures import COLOURS, circles, figure, ticks
 from validation.full_slip import full_slip
 from validation.measured import power
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 
 ROUNDING = 1e-12  #: of a place, over its amplitude
 #: alpha, T, k_x/k_xc, omega_0/omega of the flat punch; it keeps contact in all
@@ -55,28 +54,35 @@ class Motion:
 
 
 def claim(effort: str) -> Claim:
-    """Compare march and closed form, step by step of refinement."""
+    """Above the critical velocity the body moves as Eqs. (10) to (14) say
+
+    How: Compare march and closed form, step by step of refinement.
+
+    Quote: Under the assumption that the immediate contact point is always in the sliding state … Eq. (8) … can be
+    easily solved with respect to u_x, Eq. (10); … u_x − u_x,c = mu_0 (k_z,c/k_x,c) (u_z,0 + Δu_z cos ωt), Eq. (12).
+    From Eqs. (10) and (12) we can first determine u_x,c, Eq. (13), and finally its velocity, Eq. (14). (Section 2.2.2)
+
+    Range: a flat punch that keeps contact at twice v_c, ωτ from 0 to 3, k_x/k_xc from 0.5 to 3, driven above and below
+    its natural frequency and without mass, 64 to {most_steps} steps a period; the force of a paraboloid, elastic and at
+    ωτ = 1.
+
+    Measured: Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree with the
+    closed forms; what differs falls with the fourth power of the step. Slip never stops; its least velocity is v_0 −
+    v_c. With a damper a body that starts from rest ends in the same motion, with k_x + iω c_x in the place of k_x.
+    Under a paraboloid springs come and go, and the force of the array follows the full-slip solution: the elastic one
+    with the square of the number of springs, the viscous one up to the dashpot of the single spring that touches.
+
+    Verdict: holds
+
+    Sentence: In full slip one element describes the whole punch: offset, amplitude, phase and slip velocity.
+    """
     steps = (64, 128, 256, 512) if effort == "quick" else (64, 128, 256, 512, 1024, 2048, 4096)
     motions = {punch: [follow(punch, n) for n in steps] for punch in PUNCHES}
     checks = [c for punch, refined in motions.items() for c in _motion_checks(_name(punch), refined, steps)]
+    most_steps = steps[-1]
     return Claim(
-        name="full_slip_motion",
-        title="Above the critical velocity the body moves as Eqs. (10) to (14) say",
-        quote="Under the assumption that the immediate contact point is always in the sliding state … Eq. (8) … can be"
-        " easily solved with respect to u_x, Eq. (10); … u_x − u_x,c = mu_0 (k_z,c/k_x,c) (u_z,0 + Δu_z cos ωt), Eq."
-        " (12). From Eqs. (10) and (12) we can first determine u_x,c, Eq. (13), and finally its velocity, Eq. (14)."
-        " (Section 2.2.2)",
-        range="a flat punch that keeps contact at twice v_c, ωτ from 0 to 3, k_x/k_xc from 0.5 to 3, driven above and"
-        f" below its natural frequency and without mass, 64 to {steps[-1]} steps a period; the force of a paraboloid,"
-        " elastic and at ωτ = 1.",
-        measured="Mean offset, amplitude and phase of body and foot, the extension and the slip velocity agree with the"
-        " closed forms; what differs falls with the fourth power of the step. Slip never stops; its least velocity is"
-        " v_0 − v_c. With a damper a body that starts from rest ends in the same motion, with k_x + iω c_x in the"
-        " place of k_x. Under a paraboloid springs come and go, and the force of the array follows the full-slip"
-        " solution: the elastic one with the square of the number of springs, the viscous one up to the dashpot of the"
-        " single spring that touches.",
-        verdict="holds",
-        sentence="In full slip one element describes the whole punch: offset, amplitude, phase and slip velocity.",
+        "full_slip_motion",
+        **told(claim, locals()),
         checks=(*checks, _from_rest(), *_force_checks(effort)),
         figures=(_motion_figure(), _order_figure(motions, steps)),
     )
@@ -87,9 +93,8 @@ def follow(punch: tuple[float, float, float, float], steps: int) -> Motion:
     alpha, T, k_ratio, omega_0_ratio = punch
     case = contact("flat punch", alpha, T, k_ratio=k_ratio, omega_0_ratio=omega_0_ratio)
     v_c = mdr.critical_velocity(case)
-    run: Any = mdr.slide(case, 2 * v_c, steps_per_period=steps, n_springs=16, n_periods=8, record=1)
+    run = mdr.slide(case, 2 * v_c, steps_per_period=steps, n_springs=16, n_periods=8, record=1)
     t, v_0, pull, oscillation = run.t, run.v_0, case.pull, case.oscillation
-    assert isinstance(pull, mdr.SpringPull)
     motion = case.mu_0, oscillation.u_z0, oscillation.du_z, oscillation.omega
     kappa = case.material.mindlin_ratio
     contact_of, body = (case.k_zc, case.gamma_zc, kappa), (pull.k_x, pull.m)
@@ -142,7 +147,7 @@ def _from_rest() -> Check:
     """A damped body started from rest; its free oscillation has died by exp(-0.07 * 2 pi * 60) = 3e-12."""
     case = contact("flat punch", 0.5, 0.5, k_ratio=0.5, omega_0_ratio=0.7, damping_ratio=0.1)
     v_0, steps = 2 * mdr.critical_velocity(case), 512
-    run: Any = mdr.slide(case, v_0, steps_per_period=steps, n_springs=16, n_periods=60, start="rest", record=1)
+    run = mdr.slide(case, v_0, steps_per_period=steps, n_springs=16, n_periods=60, start="rest", record=1)
     got = 2 * np.fft.rfft(run.u_x - v_0 * run.t)[1] / steps * np.exp(-1j * 2 * np.pi / steps)  # t begins at h
     force = case.k_zc * case.oscillation.du_z * (1 + 1j * case.T)
     closed = -case.mu_0 * force * case.pull.receptance(case.oscillation.omega)
@@ -159,7 +164,7 @@ def _force_checks(effort: str) -> Checks:
         offs, means = [], []
         v_0 = 2 * mdr.critical_velocity(case)
         for n in counts:
-            run: Any = mdr.slide(case, v_0, n_springs=n, steps_per_period=512, n_periods=8, record=1)
+            run = mdr.slide(case, v_0, n_springs=n, steps_per_period=512, n_periods=8, record=1)
             offs.append((run.F_z - exact) / exact.mean())
             means.append(abs(run.mean_F_z / exact.mean() - 1))
         springs = mdr.SpringArray.of(case, counts[-1])
@@ -183,9 +188,13 @@ def _force_checks(effort: str) -> Checks:
 
 
 @figure("motion", 1, 2, size=(8.6, 3.9))
-def _motion_figure(fig, axes) -> str:
+def _motion_figure(fig, axes):
     """Body and foot positions and slip velocity over one period, circles of the run on the lines of the closed
     forms.
+
+    Flat punch on a Kelvin rubber (ωτ = 0.5) at v_0 = 2 v_c, driven above its natural frequency. Lines: Eqs. (10), (13),
+    (14); circles: every eighth step of the run. Body and extension swing nearly together, so the foot swings less than
+    the body. Slip is slowest at v_0 − v_c: it would stop at v_0 = v_c.
     """
     left, right = axes
     motion = follow(PUNCHES[1], 256)
@@ -203,16 +212,15 @@ def _motion_figure(fig, axes) -> str:
     right.set(xlabel="time [periods]", ylabel="slip velocity over $v_c$", ylim=(0, None))
     circles(left, [], [], "0.3", label="run")
     fig.legend(loc="outside lower center", ncols=4)
-    return (
-        "Flat punch on a Kelvin rubber (ωτ = 0.5) at v_0 = 2 v_c, driven above its natural frequency. Lines: Eqs. (10),"
-        " (13), (14); circles: every eighth step of the run. Body and extension swing nearly together, so the foot"
-        " swings less than the body. Slip is slowest at v_0 − v_c: it would stop at v_0 = v_c."
-    )
 
 
 @figure("order")
-def _order_figure(fig, ax, motions: dict[Any, list[Motion]], steps: tuple[int, ...]) -> str:
-    """Errors of body and foot against the steps per period, parallel to a line of fourth order or at rounding."""
+def _order_figure(fig, ax, motions: dict[Any, list[Motion]], steps: tuple[int, ...]):
+    """Errors of body and foot against the steps per period, parallel to a line of fourth order or at rounding.
+
+    Error of the run against Eqs. (10) and (13) in four systems: it falls by sixteen when the step is halved, and
+    without mass is rounding, so nothing but the step stands between the march and the closed forms.
+    """
     for (punch, refined), colour in zip(motions.items(), COLOURS, strict=False):
         for k, marker in enumerate("os"):
             ax.loglog(steps, [m.errors[k] for m in refined], marker, mfc="white", color=colour, ms=5.5)
@@ -226,7 +234,3 @@ def _order_figure(fig, ax, motions: dict[Any, list[Motion]], steps: tuple[int, .
     ax.set(xlabel="steps per period", ylabel="relative error")
     ticks(ax.xaxis, *steps)
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return (
-        "Error of the run against Eqs. (10) and (13) in four systems: it falls by sixteen when the step is halved, and"
-        " without mass is rounding, so nothing but the step stands between the march and the closed forms."
-    )

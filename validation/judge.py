@@ -18,40 +18,46 @@ import numpy as np
 
 import mdr
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS
 from validation.cases import contact
-from validation.figures import figure, ticks
+from validation.figures import COLOURS, figure, ticks
 from validation.half_space import rings
 from validation.half_space.benchmarks import PartialSlip, cattaneo_mindlin, hertz, punch, spence
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 
 SHARES = (0.2, 0.5, 0.8)  #: of the way to full slip
 SPENCE = ((0.0, 0.3), (0.0, 0.6), (0.15, 0.3), (0.3, 0.3))  #: nu, mu_0
 
 
 def claim(effort: str) -> Claim:
-    """Ask for what is known."""
+    """The reference solver in three dimensions agrees with known solutions
+
+    How: Ask for what is known.
+
+    Range: a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without
+    friction, bonded, and pulled; grids of 16² to 64² cells
+
+    Measured: Forces, tractions and radii of stick are those of the closed forms. Where transverse slip, which Cattaneo
+    and Mindlin leave out, plays a part, it changes the force by {force:.1e} of μ_0 <i>F<sub>z</sub></i> at ν = 0.5,
+    with tractions across the pull of up to {across:.2f} μ_0 p_0, less than ν/(4 − 2ν) = 0.17. Spence's radius of stick
+    under a normal load comes out as the axisymmetric equations have it. The closed form in the textbooks for it leaves
+    out that friction moves the surface down (Goodman); at ν = 0 and μ_0 = 0.3 that alone makes the radius
+    {gone_percent:.0f} % smaller.
+
+    Verdict: holds
+
+    Sentence: The reference solver meets Hertz, Cattaneo and Mindlin, the bonded punch and Spence within its stated
+    errors.
+    """
     quick = effort == "quick"
     n = 32 if quick else 64
     slips = {nu: [cattaneo_mindlin(n, nu, share) for share in SHARES] for nu in (0.0, 0.3, 0.5)}
     force = max(abs(one.force - one.closed_form) for one in slips[0.5])
     across = max(one.transverse for one in slips[0.5])
     gone = 1 - rings.stick_radius(0.5, 0.3) / rings.goodman(0.5, 0.3)
+    gone_percent = 100 * gone
     return Claim(
-        name="judge",
-        title="The reference solver in three dimensions agrees with known solutions",
-        quote="",
-        range="a rigid paraboloid and flat punch on an elastic half-space, ν from 0 to 0.5: pressed with and without"
-        " friction, bonded, and pulled; grids of 16² to 64² cells",
-        measured="Forces, tractions and radii of stick are those of the closed forms. Where transverse slip, which"
-        f" Cattaneo and Mindlin leave out, plays a part, it changes the force by {force:.1e} of μ_0"
-        f" <i>F<sub>z</sub></i> at ν = 0.5, with tractions across the pull of up to {across:.2f} μ_0 p_0, less than"
-        " ν/(4 − 2ν) = 0.17. Spence's radius of stick under a normal load comes out as the axisymmetric equations have"
-        " it. The closed form in the textbooks for it leaves out that friction moves the surface down (Goodman); at ν ="
-        f" 0 and μ_0 = 0.3 that alone makes the radius {100 * gone:.0f} % smaller.",
-        verdict="holds",
-        sentence="The reference solver meets Hertz, Cattaneo and Mindlin, the bonded punch and Spence within its"
-        " stated errors.",
+        "judge",
+        **told(claim, locals()),
         checks=(*_normal_checks(quick), *_slip_checks(slips, n), *_spence_checks(quick), *_order_checks(quick)),
         figures=(_figure(quick),),
     )
@@ -131,9 +137,14 @@ def _order_checks(quick: bool) -> Checks:
 
 
 @figure("trust", 1, 2, size=(9.6, 3.9))
-def _figure(fig, axes, quick: bool) -> str:
+def _figure(fig, axes, quick: bool):
     """Two panels: relative errors falling with the number of cells; stick radius against Poisson's ratio for three
     coefficients of friction, circles on full lines.
+
+    Left: forces of the reference solver approach the closed forms with the number of cells, at first order or better.
+    Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver lie on the full lines
+    of the axisymmetric equations, with every coupling; Goodman's closed form (dashed) leaves out that friction moves
+    the surface down, and is too high where ν and μ_0 are small.
     """
     left, right = axes
     cells = (16, 32) if quick else (16, 24, 32, 48, 64)
@@ -155,9 +166,3 @@ def _figure(fig, axes, quick: bool) -> str:
     right.plot([], [], "ko", mfc="w", label="three dimensions")
     right.set(xlabel=r"Poisson's ratio $\nu$", ylabel=r"stick radius over $a$", ylim=(0, 1.02))
     right.legend(loc=(0.02, 0.13), fontsize=9)
-    return (
-        "Left: forces of the reference solver approach the closed forms with the number of cells, at first"
-        " order or better. Right: stick under a normal load alone (Spence). The circles of the three-dimensional solver"
-        " lie on the full lines of the axisymmetric equations, with every coupling; Goodman's closed form (dashed)"
-        " leaves out that friction moves the surface down, and is too high where ν and μ_0 are small."
-    )

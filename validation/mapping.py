@@ -21,12 +21,11 @@ import numpy as np
 
 import mdr
 import mdr.indenters as shapes
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import CATALOGUE, DEPTH, OMEGA, RADIUS, SHAPES, E, contact, depth_of, shape_label, widest_cell
-from validation.figures import circles, figure, ticks
+from validation.figures import COLOURS, below, circles, figure, outer_labels, panel, ticks
 from validation.measured import power
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 
 E_STAR = E / (1 - 0.5**2)  # of the rubber
 ROUNDING = 1e-12  # some ten roundings of 2e-16 on either side, times a/(a - r) < 100 near the rim
@@ -36,7 +35,29 @@ AMPLITUDES = {"quick": (1e-9, 1e-3, 0.3, 1.0, 2.0), "full": (1e-9, 1e-6, 1e-3, 0
 
 
 def claim(effort: str) -> Claim:
-    """Test shapes, quadrature and spring array against three-dimensional contact mechanics."""
+    """A row of independent springs stands for the contact
+
+    How: Test shapes, quadrature and spring array against three-dimensional contact mechanics.
+
+    Quote: According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be
+    equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)
+
+    Range: flat punch, cone, paraboloid and r^4, depths from 2·10⁻⁵ to 40 µm, each also given as a mere function f(r);
+    every other shape of the catalogue, with flat faces, caps and corners, also given by points and by a curve of force;
+    spring arrays for Δu_z/u_z0 from 10^-9 to 2, with {counts[0]} to {most} springs.
+
+    Measured: Contact radius, force, stiffness and pressure agree with the solutions of Hertz, Sneddon and Boussinesq to
+    rounding, {off_formulas:.0e}; of a shape given as a mere function f(r), to {off_functions:.0e}. That pressure adds
+    up to the force to {off_force:.0e}, for each of the {n_shapes} shapes, and, put on an elastic half-space, sinks its
+    surface into the shape to {off_surface:.0e} of the depth, as far as these quadratures go. The springs add up to F_N
+    and k_zc to rounding at both extremes of the oscillation, however small it is. In between a force is off by the one
+    spring that is about to touch: an error that falls with the square of the number of springs.
+
+    Verdict: holds
+
+    Sentence: The springs carry the force, stiffness and pressure of the three-dimensional contact: to rounding where
+    both sides are formulas, to the accuracy of the quadrature where one is an integral.
+    """
     amplitudes = AMPLITUDES["quick" if effort == "quick" else "full"]
     counts = (32, 64, 128, 256, 512) if effort == "quick" else (32, 64, 128, 256, 512, 1024, 2048)
     orders = {shape: _errors(shape, 0.3, counts) for shape in SHAPES if shape != "flat punch"}
@@ -44,25 +65,13 @@ def claim(effort: str) -> Claim:
     checks = (*_shape_checks(sunk), *_profile_checks(), *_sum_checks(amplitudes), *_catalogue_sum_checks())
     checks += tuple(_order_checks(orders, counts))
     formulas = [check for check in checks if "as a function" not in check.name]
+    most, off_formulas = counts[-1], _greatest(formulas, ": a, F_N")
+    off_functions = _greatest(checks, "as a function")
+    off_force = _greatest(checks, "over the disc")
+    n_shapes, off_surface = len(SHAPES) + len(CATALOGUE), _greatest(checks, "half-space")
     return Claim(
-        name="mapping",
-        title="A row of independent springs stands for the contact",
-        quote="According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
-        " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)",
-        range="flat punch, cone, paraboloid and r^4, depths from 2·10⁻⁵ to 40 µm, each also given as a mere function"
-        " f(r); every other shape of the catalogue, with flat faces, caps and corners, also given by points and by a"
-        f" curve of force; spring arrays for Δu_z/u_z0 from 10^-9 to 2, with {counts[0]} to {counts[-1]} springs.",
-        measured="Contact radius, force, stiffness and pressure agree with the solutions of Hertz, Sneddon and"
-        f" Boussinesq to rounding, {_greatest(formulas, ': a, F_N'):.0e}; of a shape given as a mere function f(r), to"
-        f" {_greatest(checks, 'as a function'):.0e}. That pressure adds up to the force to"
-        f" {_greatest(checks, 'over the disc'):.0e}, for each of the {len(SHAPES) + len(CATALOGUE)} shapes, and, put on"
-        f" an elastic half-space, sinks its surface into the shape to {_greatest(checks, 'half-space'):.0e} of the"
-        " depth, as far as these quadratures go. The springs add up to F_N and k_zc to rounding at both"
-        " extremes of the oscillation, however small it is. In between a force is off by the one spring that is about"
-        " to touch: an error that falls with the square of the number of springs.",
-        verdict="holds",
-        sentence="The springs carry the force, stiffness and pressure of the three-dimensional contact: to rounding"
-        " where both sides are formulas, to the accuracy of the quadrature where one is an integral.",
+        "mapping",
+        **told(claim, locals()),
         checks=checks,
         figures=(_pressure_figure(), _catalogue_figure(sunk), _error_figure(orders, counts)),
     )
@@ -78,7 +87,7 @@ def _greatest(checks: Iterable[Check], name: str) -> float:
 
 def textbook(shape: str, d: Any) -> tuple[Any, Any, Any]:
     """Contact radius [m], force [N] and stiffness [N/m] at depth d [m] after Boussinesq, Sneddon, Hertz, Sneddon."""
-    indenter: Any = SHAPES[shape]
+    indenter = SHAPES[shape]
     if shape == "flat punch":
         return indenter.a + 0 * d, 2 * E_STAR * indenter.a * d, 2 * E_STAR * indenter.a + 0 * d
     if shape == "cone":
@@ -93,7 +102,7 @@ def textbook(shape: str, d: Any) -> tuple[Any, Any, Any]:
 
 def textbook_pressure(shape: str, r: Array, d: float) -> Array:
     """Pressure [Pa] at radii r < a [m]."""
-    indenter: Any = SHAPES[shape]
+    indenter = SHAPES[shape]
     a = float(textbook(shape, d)[0])
     chord = np.sqrt((a - r) * (a + r))
     if shape == "flat punch":
@@ -135,7 +144,7 @@ def _off_textbook(indenter: mdr.Indenter, shape: str, depths: Array) -> float:
     got = (indenter.contact_radius(depths), indenter.force(depths, E_STAR), indenter.stiffness(depths, E_STAR))
     pairs = [*zip(got, textbook(shape, depths), strict=True)]
     pairs.append((indenter.pressure(r, DEPTH, E_STAR), textbook_pressure(shape, r, DEPTH)))
-    return max(float(np.max(np.abs(np.asarray(one) / np.asarray(other) - 1))) for one, other in pairs)
+    return max(float(np.max(np.abs(one / other - 1))) for one, other in pairs)
 
 
 def _shape_checks(sunk: dict[str, Array]) -> Checks:
@@ -251,9 +260,14 @@ def _order_checks(orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...
 
 
 @figure("shapes", 1, 2, size=(8.2, 3.9))
-def _pressure_figure(fig, axes) -> str:
+def _pressure_figure(fig, axes):
     """Pressure over radius and normal force over depth for flat punch, cone, paraboloid and r^4, lines on textbook
     circles.
+
+    The four test shapes on rubber of E = 3 MPa. Lines: the library; circles: the textbook, Boussinesq for the flat
+    punch, Hertz for the paraboloid, Sneddon for cone and r^4. Their pressures differ as widely as pressures can,
+    infinite at the rim of the punch and at the tip of the cone, yet all touch over the same disc at 20 µm and are
+    equally stiff there.
     """
     left, right = axes
     r, few = np.linspace(0.002, 0.998, 400), np.linspace(0.05, 0.95, 13)
@@ -265,25 +279,23 @@ def _pressure_figure(fig, axes) -> str:
         circles(left, few, textbook_pressure(shape, few * RADIUS, DEPTH) / mean, colour)
         right.loglog(d * 1e6, np.asarray(indenter.force(d, E_STAR)), color=colour)
         circles(right, some * 1e6, textbook(shape, some)[1], colour)
-    left.set(ylim=(0, 3.2), xlim=(0, 1.02), xlabel="radius $r/a$", ylabel="pressure over its mean")
-    left.set_title("pressure at 20 µm")
-    right.set(xlabel="depth $d$ [µm]", ylabel="normal force $F_N$ [N]", title="force")
+    panel(left, "radius $r/a$", "pressure over its mean", "pressure at 20 µm", ylim=(0, 3.2), xlim=(0, 1.02))
+    panel(right, "depth $d$ [µm]", "normal force $F_N$ [N]", "force")
     circles(left, [], [], "0.3", label="textbook")
-    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    return (
-        "The four test shapes on rubber of E = 3 MPa. Lines: the library; circles: the textbook,"
-        " Boussinesq for the flat punch, Hertz for the paraboloid, Sneddon for cone and r^4. Their pressures differ"
-        " as widely as pressures can, infinite at the rim of the punch"
-        " and at the tip of the cone, yet all touch over the same disc at 20 µm and are equally stiff there."
-    )
+    below(fig, left, 5)
 
 
 TALLEST = 3.2  #: pressure over its mean up to which it is drawn
 
 
 @figure("catalogue", 3, 4, size=(9.6, 8.0), sharex=True, sharey=True)
-def _catalogue_figure(fig, axes, sunk: dict[str, Array]) -> str:
-    """Twelve small panels, one a shape, with the pressure above and the shape with circles on it below."""
+def _catalogue_figure(fig, axes, sunk: dict[str, Array]):
+    """Twelve small panels, one a shape, with the pressure above and the shape with circles on it below.
+
+    Every other shape of the library, pressed until it touches over a disc of radius a. Above the line the pressure that
+    follows from its one-dimensional image; below it the indenter and, as circles, where that pressure puts the surface
+    of an elastic half-space: they meet the indenter in each case.
+    """
     r = np.linspace(0.0, 1.0, 201)
     for ax, (shape, indenter) in zip(axes.flat, CATALOGUE.items(), strict=True):
         d = depth_of(indenter)
@@ -300,8 +312,7 @@ def _catalogue_figure(fig, axes, sunk: dict[str, Array]) -> str:
             ax.plot(peak, TALLEST, "^", color=COLOURS[0], ms=6)
         ax.axhline(0.0, color="0.4", lw=0.8)
         ax.set_title(shape_label(shape), fontsize="medium")
-        if ax in axes[-1]:
-            ax.set_xlabel("$r/a$")
+    outer_labels(axes, "$r/a$", "")
     left = axes[0, 0]
     left.set(xlim=(0, 1.05), ylim=(-1.5, TALLEST + 0.3), yticks=[-1, 0, 1, 2, 3])
     left.set_xticks([0, 0.5, 1], ["0", "0.5", "1"])
@@ -309,17 +320,16 @@ def _catalogue_figure(fig, axes, sunk: dict[str, Array]) -> str:
     left.plot([], [], "^", color=COLOURS[0], ms=6, label="infinite")
     left.plot([], [], color="0.3", lw=1.2, label="indenter, depth over $d$")
     circles(left, [], [], COLOURS[1], label="half-space under that pressure")
-    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return (
-        "Every other shape of the library, pressed until it touches over a disc of radius a. Above the line the"
-        " pressure that follows from its one-dimensional image; below it the indenter and, as circles, where that"
-        " pressure puts the surface of an elastic half-space: they meet the indenter in each case."
-    )
+    below(fig, left, 4)
 
 
 @figure("springs")
-def _error_figure(fig, ax, orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]) -> str:
-    """Error of the normal force against the number of springs, with a line of second order and points at rounding."""
+def _error_figure(fig, ax, orders: dict[str, tuple[Array, Array]], counts: tuple[int, ...]):
+    """Error of the normal force against the number of springs, with a line of second order and points at rounding.
+
+    Force of the spring array at Δu_z/u_z0 = 0.3. Hollow: the greatest error in between falls by four when the springs
+    are doubled. Full: at the mean depth and at both extremes the sum is exact to rounding with any number of springs.
+    """
     for (shape, (errors, _)), colour, marker in zip(orders.items(), COLOURS[1:], "osD", strict=False):
         label = f"{shape_label(shape)}, between the extremes"
         ax.loglog(counts, errors, marker, color=colour, ms=6, mfc="white", label=label)
@@ -331,11 +341,6 @@ def _error_figure(fig, ax, orders: dict[str, tuple[Array, Array]], counts: tuple
     ax.set(xlabel="number of springs", ylabel=r"error of $F_N$ over $2E^{*}a\,u_{z0}$", ylim=(1e-17, 1e-2))
     ticks(ax.xaxis, *counts)
     ax.legend(loc="center right", bbox_to_anchor=(1.0, 0.4))
-    return (
-        "Force of the spring array at Δu_z/u_z0 = 0.3. Hollow: the greatest error in between falls by four"
-        " when the springs are doubled. Full: at the mean depth and at both extremes the sum is exact to"
-        " rounding with any number of springs."
-    )
 
 
 def _at_ends(shape: str, n_springs: int) -> float:

@@ -23,7 +23,7 @@ import mdr
 from validation.cases import LOOKS, OMEGA, SHAPES, contact, shape_label
 from validation.figures import figure, ticks
 from validation.measured import TOLERANCE, Point, measured
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import number, span
 
 SMALL = 0.003  #: alpha of the first map
@@ -38,7 +38,29 @@ POINTS = ((0.3, 0.03), (1.0, 0.03), (1.22, 0.02), (1.22, 1.0), (2.0, 0.1), (4.0,
 
 
 def claim(effort: str) -> Claim:
-    """Compute the two maps and look at every point of them."""
+    """Friction is reduced below the critical velocity and full above it, everywhere on the map
+
+    How: Compute the two maps and look at every point of them.
+
+    Quote: The velocity-dependences all start from the static value at vanishing velocity. Second, the coefficient of
+    friction increases monotonically (again, barring exceptional system-dynamical circumstances) until it reaches the
+    microscopic value at some critical velocity. (Section 3)
+
+    Range: Paraboloid. Eq. (15) at {of_v_c[v_c].size} points, ω/ω_0 from 0.1 to 10 and ω_0 τ from 0.01 to 100, and
+    {n_points} measured; friction at {rigid[cof].size} points under a rigid pull and {body[cof].size} of a body (k_x =
+    k_x,c, ω_0 = 1.9 ω), v_0/v_c from 0 to 1.3, Δu_z/u_z0 from 0.05 to 1.6, the contact kept and lost.
+
+    Measured: v_c of a body lies between {least_v_c} and {most_v_c} times Eq. (1), by frequency more than by anything
+    else. Friction rises along every line of velocity, from its static value to μ_0, which it reaches at the full-slip
+    v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at Eq. (15) for small ones and at down to
+    {least:.2f} of it for large. To halve friction at rest takes an amplitude of {amplitudes} of the depth; no amplitude
+    halves it beyond {reaches} v_c (four shapes, ωτ from 0 to {greatest_T:g}, rigid pull).
+
+    Verdict: holds
+
+    Sentence: On the maps of a paraboloid friction is reduced at all points below 0.95 of the full-slip v_c and full at
+    all points above it. This v_c is Eq. (15) under a rigid pull, or at small amplitude.
+    """
     quick = effort == "quick"
     of_v_c = over_frequency(*((25, 13) if quick else (121, 61)))
     n_v, n_alpha = (14, 8) if quick else (40, 30)
@@ -50,25 +72,12 @@ def claim(effort: str) -> Claim:
     low, high = (float(f(of_v_c["v_c"] / of_v_c["eq_1"])) for f in (np.min, np.max))
     checks = (*_checks_of_cof(rigid, "rigid pull"), *_checks_of_cof(body, "body"))
     least = float(np.nanmin(body["full_slip_v_c"] / body["v_c"]))
+    n_points, least_v_c, most_v_c = len(points), number(low), number(high)
+    amplitudes, reaches = span((half.at_rest for half in halves), 2), span(furthest, 2)
+    greatest_T = max(half.T for half in halves)
     return Claim(
-        name="maps",
-        title="Friction is reduced below the critical velocity and full above it, everywhere on the map",
-        quote="The velocity-dependences all start from the static value at vanishing velocity. Second, the coefficient"
-        " of friction increases monotonically (again, barring exceptional system-dynamical circumstances) until it"
-        " reaches the microscopic value at some critical velocity. (Section 3)",
-        range=f"Paraboloid. Eq. (15) at {of_v_c['v_c'].size} points, ω/ω_0 from 0.1 to 10 and ω_0 τ from 0.01 to 100,"
-        f" and {len(points)} measured; friction at {rigid['cof'].size} points under a rigid pull and {body['cof'].size}"
-        " of a body (k_x = k_x,c, ω_0 = 1.9 ω), v_0/v_c from 0 to 1.3, Δu_z/u_z0 from 0.05 to 1.6, the contact kept and"
-        " lost.",
-        measured=f"v_c of a body lies between {number(low)} and {number(high)} times Eq. (1), by frequency more than by"
-        " anything else. Friction rises along every line of velocity, from its static value to μ_0, which it reaches at"
-        " the full-slip v_c: under a rigid pull at Eq. (1) for every amplitude, for the body at Eq. (15) for small ones"
-        f" and at down to {least:.2f} of it for large. To halve friction at rest takes an amplitude of"
-        f" {span((half.at_rest for half in halves), 2)} of the depth; no amplitude halves it beyond {span(furthest, 2)}"
-        f" v_c (four shapes, ωτ from 0 to {max(half.T for half in halves):g}, rigid pull).",
-        verdict="holds",
-        sentence="On the maps of a paraboloid friction is reduced at all points below 0.95 of the full-slip v_c and"
-        " full at all points above it. This v_c is Eq. (15) under a rigid pull, or at small amplitude.",
+        "maps",
+        **told(claim, locals()),
         checks=(*_checks_of_v_c(of_v_c, points), *checks, *_checks_of_half(halves)),
         figures=(_figure_of_v_c(of_v_c, points), _figure_of_cof(rigid, body), _figure_of_half(halves)),
     )
@@ -181,8 +190,15 @@ def _checks_of_half(halves: list[Half]) -> Checks:
 
 
 @figure("critical_velocity", size=(6.8, 4.4))
-def _figure_of_v_c(fig, ax, study: mdr.Study, points: list[Point]) -> str:
-    """Map of the critical velocity over frequency and relaxation time with a ridge and a valley."""
+def _figure_of_v_c(fig, ax, study: mdr.Study, points: list[Point]):
+    """Map of the critical velocity over frequency and relaxation time with a ridge and a valley.
+
+    Eq. (15) over Eq. (1) for a body on a paraboloid, k_x = {stiffness:g} k_x,c, {zeta:g} % of critical damping. The
+    ridge at ω = ω_0 is the body on its spring; the valley at ω = 1.22 ω_0 is the body on spring and contact, where
+    almost any velocity is too fast to be controlled, and dashpots fill it. To the right the body is too heavy to move,
+    and v_c is Eq. (1); to the left a slow body follows the force, which dashpots raise. Circles: where v_c was
+    measured.
+    """
     tau, omega = study.axes["material.tau"] * OMEGA, study.axes["oscillation.omega"] / OMEGA
     values, levels = study["v_c"] / study["eq_1"], (0.03, 0.1, 0.3, 0.9, 1.1, 3, 10, 20)
     mesh = ax.pcolormesh(omega, tau, values, norm="log", cmap="viridis", rasterized=True, shading="nearest")
@@ -193,18 +209,19 @@ def _figure_of_v_c(fig, ax, study: mdr.Study, points: list[Point]) -> str:
     ax.set(xscale="log", yscale="log", xlim=(omega[0], omega[-1]), ylim=(tau[0], tau[-1]))
     ax.set(xlabel=r"frequency $\omega/\omega_0$", ylabel=r"relaxation time $\omega_0\tau$")
     fig.colorbar(mesh, ax=ax, pad=0.02, label="$v_c$ over Eq. (1)").outline.set_visible(False)
-    return (
-        f"Eq. (15) over Eq. (1) for a body on a paraboloid, k_x = {STIFFNESS:g} k_x,c, {100 * ZETA:g} % of critical"
-        " damping. The ridge at ω = ω_0 is the body on its spring; the valley at ω = 1.22 ω_0 is the body on spring"
-        " and contact, where almost any velocity is too fast to be controlled, and dashpots fill it. To the"
-        " right the body is too heavy to move, and v_c is Eq. (1); to the left a slow body follows the force, which"
-        " dashpots raise. Circles: where v_c was measured."
-    )
+    return {"stiffness": STIFFNESS, "zeta": 100 * ZETA}
 
 
 @figure("friction", 1, 2, size=(11, 4.4), sharey=True)
-def _figure_of_cof(fig, axes, rigid: mdr.Study, body: mdr.Study) -> str:
-    """Two maps of friction over velocity and amplitude with the line on which it becomes full."""
+def _figure_of_cof(fig, axes, rigid: mdr.Study, body: mdr.Study):
+    """Two maps of friction over velocity and amplitude with the line on which it becomes full.
+
+    μ (μ_0 = 0.5) over velocity and amplitude, a paraboloid, ωτ = 0.3. Dashed, v_c: Eq. (15). Orange: the full-slip v_c,
+    to the right of which friction is full. Under a rigid pull it is v_c of Eq. (1) at every amplitude; for a body (ω_0
+    = 1.9 ω) it bends away from Eq. (15), as the second harmonic of the force grows, which is near the resonance.
+    Dotted: above it the contact is lost in every period. To halve friction takes an amplitude of about a third of the
+    depth; with more of it half lasts up to {reach:.2f} v_c, but no amplitude takes it further.
+    """
     for ax, study, title in zip(axes, (rigid, body), ("rigid pull", "body on a spring"), strict=True):
         levels = RIGID.mu_0 * np.array([0.25, 0.5, 0.75, 0.9])
         study.plot_map("cof", "v_0/v_c", ax, levels=levels, limits=(0, RIGID.mu_0), colorbar=ax is axes[-1])
@@ -212,19 +229,18 @@ def _figure_of_cof(fig, axes, rigid: mdr.Study, body: mdr.Study) -> str:
         ax.axhline(1 / np.hypot(1, 0.3), color="w", lw=1, ls=":")
         ax.set_title(title)
     axes[1].set_ylabel("")
-    return (
-        "μ (μ_0 = 0.5) over velocity and amplitude, a paraboloid, ωτ = 0.3. Dashed, v_c: Eq. (15). Orange: the"
-        " full-slip v_c, to the right of which friction is full. Under a rigid pull it is v_c of Eq. (1) at every"
-        " amplitude; for a body (ω_0 = 1.9 ω) it"
-        " bends away from Eq. (15), as the second harmonic of the force grows, which is near the resonance. Dotted:"
-        " above it the contact is lost in every period. To halve friction takes an amplitude of about a third of the"
-        f" depth; with more of it half lasts up to {reach_of_half(rigid):.2f} v_c, but no amplitude takes it further."
-    )
+    return {"reach": reach_of_half(rigid)}
 
 
 @figure("half", 1, 2, size=(10, 4))
-def _figure_of_half(fig, axes, halves: list[Half]) -> str:
-    """Two panels over the loss tangent: the amplitude for half the static friction, and the velocity with half."""
+def _figure_of_half(fig, axes, halves: list[Half]):
+    """Two panels over the loss tangent: the amplitude for half the static friction, and the velocity with half.
+
+    Rigid pull. Left: the amplitude, over the depth, that halves friction at rest; dashpots lower it as they unload the
+    contact on its way up. Right: how fast the contact may slide for any amplitude to halve its friction: up to a
+    quarter to a third of v_c, whatever the shape, given the amplitude. The best one is one to three times that at which
+    contact is first lost; more raises v_c, but the share with half the friction falls.
+    """
     rest, motion = axes
     for shape, (colour, marker) in LOOKS.items():
         own = [half for half in halves if half.shape == shape]
@@ -239,9 +255,3 @@ def _figure_of_half(fig, axes, halves: list[Half]) -> str:
     motion.set(ylim=(0, 0.4), ylabel="greatest $v_0/v_c$ with half the friction")
     ticks(rest.yaxis, 0.03, 0.1, 0.3, 0.5)
     rest.legend()
-    return (
-        "Rigid pull. Left: the amplitude, over the depth, that halves friction at rest; dashpots lower it as they"
-        " unload the contact on its way up. Right: how fast the contact may slide for any amplitude to halve its"
-        " friction: up to a quarter to a third of v_c, whatever the shape, given the amplitude. The best one is one to"
-        " three times that at which contact is first lost; more raises v_c, but the share with half the friction falls."
-    )

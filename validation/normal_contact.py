@@ -22,10 +22,9 @@ import numpy as np
 
 import mdr
 from mdr.normal.indentation import Indentation, indent
-from mdr.plots import COLOURS
 from validation.cases import DEPTH, RADIUS, SHAPES, E, shape_label
-from validation.figures import circles, figure, outer_labels
-from validation.report import Check, Checks, Claim
+from validation.figures import COLOURS, circles, figure, outer_labels
+from validation.report import Check, Checks, Claim, told
 from validation.words import listed, ranged, span
 
 P = 20e-3  #: duration of a press [s]
@@ -119,26 +118,36 @@ def pressed(shape: str, kind: str, T: float) -> tuple[Indentation, Ting]:
 
 
 def claim(effort: str) -> Claim:
-    """Set creep, relaxation, press and release beside the half-space."""
+    """Springs with memory stand for a half-space with memory
+
+    How: Set creep, relaxation, press and release beside the half-space.
+
+    Range: creep over ten decades of time and relaxation, flat punch, cone and paraboloid, {bodies}; press and release
+    of cone and paraboloid on Kelvin body and standard solid, checked at relaxation times {tested_times} of the
+    duration, and drawn at {drawn_times}
+
+    Measured: Creep agrees with the closed forms to rounding, and the springs carry the load under which it happens.
+    Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends, at these relaxation times, while
+    the indenter is still {ends} % of the peak depth below the old surface.
+
+    Verdict: holds
+
+    Sentence: Releasing each spring where its own force vanishes reproduces Lee and Radok's growing and Ting's
+    retreating contact: loads, contact radii and the end of contact.
+    """
     every = product(POWERS, ("Kelvin", "standard solid"), PRESSES[effort])
     presses = {one: pressed(*one) for one in every}
     checks = (*_creep_checks(effort), *_relaxation_checks(), *_press_checks(presses))
     worst = max(float(c.got or 0) for c in checks if "force" in c.name and "press" in c.name)
     left = [100 * float(ting.u(ting.end)) / DEPTH for _, ting in presses.values()]
     times = sorted({T for _, _, T in presses})
+    bodies = ", ".join(BODIES)
+    tested_times = ranged(times).removeprefix("= ")
+    drawn_times = listed(DRAWN)
+    ends = span(left, 2)
     return Claim(
-        name="normal_contact",
-        title="Springs with memory stand for a half-space with memory",
-        quote="",
-        range=f"creep over ten decades of time and relaxation, flat punch, cone and paraboloid, {', '.join(BODIES)}; "
-        f"press and release of cone and paraboloid on Kelvin body and standard solid, checked at relaxation times "
-        f"{ranged(times).removeprefix('= ')} of the duration, and drawn at {listed(DRAWN)}",
-        measured="Creep agrees with the closed forms to rounding, and the springs carry the load under which it"
-        f" happens. Through the release the force is Ting's to {worst:.0e} of its peak. Contact ends, at these"
-        f" relaxation times, while the indenter is still {span(left, 2)} % of the peak depth below the old surface.",
-        verdict="holds",
-        sentence="Releasing each spring where its own force vanishes reproduces Lee and Radok's growing and Ting's "
-        "retreating contact: loads, contact radii and the end of contact.",
+        "normal_contact",
+        **told(claim, locals()),
         checks=checks,
         figures=(_press_figure(), _creep_figure()),
     )
@@ -149,7 +158,7 @@ def claim(effort: str) -> Claim:
 
 def creep_depth(shape: str, FJ: Any) -> Any:
     """Depth [m] from F J(t) [m²], Lee and Radok (1960)."""
-    indenter: Any = SHAPES[shape]
+    indenter = SHAPES[shape]
     if shape == "flat punch":
         return FJ / (2 * RADIUS)
     if shape == "cone":
@@ -204,9 +213,14 @@ def _press_checks(presses: dict[tuple[str, str, float], tuple[Indentation, Ting]
 
 
 @figure("press", 2, 2, size=(9.4, 7.2), sharex=True, sharey=True)
-def _press_figure(fig, axes) -> str:
+def _press_figure(fig, axes):
     """Force-depth loops of cone and paraboloid on Kelvin body and standard solid, lines of springs through Ting's
     circles.
+
+    Half a sine of depth in the duration P, force over depth; every loop runs clockwise. Lines: springs, each released
+    where its own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is lost while the
+    indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or, once they are glassy
+    throughout the press, close to the old surface again (standard solid).
     """
     for ax, (kind, shape) in zip(axes.flat, product(("Kelvin", "standard solid"), POWERS), strict=True):
         scale = E_STAR * float(SHAPES[shape].force(DEPTH, 1.0))
@@ -222,17 +236,16 @@ def _press_figure(fig, axes) -> str:
     outer_labels(axes, "depth $u/d$", r"force over elastic peak, $E_\infty$")
     axes[0, 0].set_ylim(0, 10.5)
     fig.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    return (
-        "Half a sine of depth in the duration P, force over depth; every loop runs clockwise. Lines: springs, each"
-        " released where its own force vanishes; circles: Ting's integrals; crosses: Ting's end of contact. Contact is"
-        " lost while the indenter is still below the old surface, for slow materials hardly after the turn (Kelvin) or,"
-        " once they are glassy throughout the press, close to the old surface again (standard solid)."
-    )
 
 
 @figure("creep", 1, 2, size=(9.4, 4.2))
-def _creep_figure(fig, axes) -> str:
-    """Creep curves over eight decades through circles, and the compression of the central spring under tapping."""
+def _creep_figure(fig, axes):
+    """Creep curves over eight decades through circles, and the compression of the central spring under tapping.
+
+    P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form of Lee
+    and Radok. Right: the spring in the centre is left by the indenter while still compressed, relaxes, and is met again
+    below the old surface, a little deeper at every stroke.
+    """
     left, right = axes
     t = np.concatenate([[0.0], P * np.geomspace(1e-5, 1e3, 161)])
     some = P * np.geomspace(1.3e-5, 0.8e3, 17)
@@ -244,15 +257,10 @@ def _creep_figure(fig, axes) -> str:
     left.set(xlabel="time $t/P$", ylabel="depth [µm]", title="creep of a paraboloid under 0.1 N")
     t = P * np.linspace(0, 6, 1201)
     u_z = DEPTH * np.sin(2 * np.pi * t / (2 * P))
-    run: Any = indent(SHAPES["paraboloid"], BODIES["standard solid"], t, u_z, record=True)
+    run = indent(SHAPES["paraboloid"], BODIES["standard solid"], t, u_z, record=True)
     right.plot(t / P, u_z / DEPTH, color="0.6", label="indenter")
     right.plot(t / P, run.s[:, 0] / DEPTH, color=COLOURS[0], label="surface in the centre")
     touching = run.F_z > 0
     right.fill_between(t / P, -1.05, 1.05, where=list(touching), color=COLOURS[5], alpha=0.2, lw=0, label="contact")
     right.set(xlabel="time $t/P$", ylabel="over peak depth", ylim=(-1.05, 1.05), title="standard solid, tapped")
     fig.legend(loc="outside lower center", ncols=4)
-    return (
-        "P is the duration of a press. Left: depth under a step of load, lines the library, circles the closed form of"
-        " Lee and Radok. Right: the spring in the centre is left by the indenter while still compressed, relaxes, and"
-        " is met again below the old surface, a little deeper at every stroke."
-    )

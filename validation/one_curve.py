@@ -18,12 +18,11 @@ from mdr import laws
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.normal.normal_force import mean_normal_force
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import POWERS, SHAPES, contact, shape_label
-from validation.figures import figure
+from validation.figures import COLOURS, figure
 from validation.measured import power, worst
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 
 ALPHAS = np.geomspace(0.003, 0.03, 6)  #: to which the order of what is left is fitted
 SHOWN = 0.3  #: alpha of the figure
@@ -61,31 +60,37 @@ _EQUATIONS = (
 
 
 def claim(effort: str) -> Claim:
-    """Scale the curves of four shapes on one, and count the order of what is left."""
+    """At small amplitude the whole COF curve, not only v_c, is the same for all shapes
+
+    How: Scale the curves of four shapes on one, and count the order of what is left.
+
+    Quote: In the present paper, the critical velocity of controllability was determined for … the simplest possible
+    contact geometry … However, it does not depend on absolute indentation, which permits easy generalization to more
+    realistic contact geometry. (Section 3)
+
+    Range: Elastic flat punch, cone, paraboloid and r^4 that keep contact, rigid pull, Δu_z/u_z0 up to 0.98,
+    {law.v.size} velocities up to v_c; closed form of the COF, and runs for the punch and the cone.
+
+    Measured: The lost friction 1 − μ/μ_0, in units of k_zc Δu_z/⟨F_N⟩, is one function ψ(v_0/v_c) for all shapes, up to
+    terms of order Δu_z/u_z0: that of a single spring, since all springs of the core move alike. The first of these
+    terms comes from the springs at the edge and is <i>C</i>(v_0/v_c) Δu_z/(<i>n</i> u_z0) for <i>f</i> ~ <i>r</i>^n,
+    with the same <i>C</i> for all. With it the punch and the cone are exact at any amplitude that keeps contact, and
+    what is left of the others falls with the amplitude to the power {orders[paraboloid]:.2f} (paraboloid) and
+    {orders[r^4]:.2f} (r^4). At Δu_z/u_z0 = {SHOWN:g} the curves differ among each other by up to {raw:.2g}, the scaled
+    ones from ψ by {scaled:.1g}, and by {left:.1g} after the correction.
+
+    Verdict: holds
+
+    Sentence: Elastic, rigid pull: to first order in the amplitude every shape loses the friction of one spring, (k_zc
+    Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order, for <i>r</i>^n, that times 1 + <i>C</i> Δu_z/(<i>n</i> u_z0).
+    """
     quick = effort == "quick"
     law = one_curve(np.linspace(1e-6, 0.999, 40 if quick else 120))
     orders = {shape: order(shape, law, corrected=True) for shape in ("paraboloid", "r^4")}
     raw, scaled, left = spreads(law)
     return Claim(
-        name="one_curve",
-        title="At small amplitude the whole COF curve, not only v_c, is the same for all shapes",
-        quote="In the present paper, the critical velocity of controllability was determined for … the simplest"
-        " possible contact geometry … However, it does not depend on absolute indentation, which permits easy"
-        " generalization to more realistic contact geometry. (Section 3)",
-        range="Elastic flat punch, cone, paraboloid and r^4 that keep contact, rigid pull, Δu_z/u_z0 up to 0.98,"
-        f" {law.v.size} velocities up to v_c; closed form of the COF, and runs for the punch and the cone.",
-        measured="The lost friction 1 − μ/μ_0, in units of k_zc Δu_z/⟨F_N⟩, is one function ψ(v_0/v_c) for all shapes,"
-        " up to terms of order Δu_z/u_z0: that of a single spring, since all springs of the core move alike. The first"
-        " of these terms comes from the springs at the edge and is <i>C</i>(v_0/v_c) Δu_z/(<i>n</i> u_z0) for <i>f</i>"
-        " ~ <i>r</i>^n, with the same <i>C</i> for all. With it the punch and the cone are exact at any amplitude that"
-        " keeps contact, and what is left of the others falls with the amplitude to the power"
-        f" {orders['paraboloid']:.2f} (paraboloid) and {orders['r^4']:.2f} (r^4). At Δu_z/u_z0 = {SHOWN:g} the curves"
-        f" differ among each other by up to {raw:.2g}, the scaled ones from ψ by {scaled:.1g}, and by {left:.1g} after"
-        " the correction.",
-        verdict="holds",
-        sentence="Elastic, rigid pull: to first order in the amplitude every shape loses the friction of one spring,"
-        " (k_zc Δu_z/⟨F_N⟩) ψ(v_0/v_c), and to second order, for <i>r</i>^n, that times 1 + <i>C</i> Δu_z/(<i>n</i>"
-        " u_z0).",
+        "one_curve",
+        **told(claim, locals()),
         checks=(*_exact_checks(law, 6 if quick else 25), *_first_order_checks(), *_order_checks(law, orders)),
         figures=(_figure(law),),
         equations=_EQUATIONS,
@@ -181,9 +186,14 @@ def _order_checks(law: OneCurve, orders: dict[str, float]) -> Checks:
 
 
 @figure("collapse", 1, 3, size=(12.6, 4.2))
-def _figure(fig, axes, law: OneCurve) -> str:
+def _figure(fig, axes, law: OneCurve):
     """Three panels over velocity: four curves apart; the same scaled, nearly one; what is left with and without a
     correction.
+
+    Elastic contacts of four shapes, α = Δu_z/u_z0 = {shown:g}. Left: they lose up to {raw:.2g} μ_0 more or less than
+    each other. Middle: in units of k_zc Δu_z/⟨F_N⟩ all lose ψ(v_0/v_c), the deficit of a single spring, to
+    {before:.1g}. Right: what the edge adds in first order, <i>C</i>(v_0/v_c) α/<i>n</i>, leaves {after:.1g} of the
+    paraboloid and less of r^4 (solid), and nothing of the punch and the cone, solid lines at zero.
     """
     curves, scaled, left = axes
     v = law.v
@@ -203,9 +213,4 @@ def _figure(fig, axes, law: OneCurve) -> str:
         ax.set(xlabel="pulling velocity $v_0/v_c$", xlim=(0, 1))
         ax.legend()
     raw, before, after = spreads(law)
-    return (
-        f"Elastic contacts of four shapes, α = Δu_z/u_z0 = {SHOWN:g}. Left: they lose up to {raw:.2g} μ_0 more or less"
-        " than each other. Middle: in units of k_zc Δu_z/⟨F_N⟩ all lose ψ(v_0/v_c), the deficit of a single spring, to"
-        f" {before:.1g}. Right: what the edge adds in first order, <i>C</i>(v_0/v_c) α/<i>n</i>, leaves {after:.1g} of"
-        " the paraboloid and less of r^4 (solid), and nothing of the punch and the cone, solid lines at zero."
-    )
+    return {"shown": SHOWN, "raw": raw, "before": before, "after": after}

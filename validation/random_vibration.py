@@ -18,11 +18,10 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, SHAPES, E
-from validation.figures import figure
-from validation.report import Check, Checks, Claim, Equation
+from validation.figures import COLOURS, figure
+from validation.report import Check, Checks, Claim, Equation, told
 
 FEWEST = 32  #: histories whose spread tells a standard error
 MU_0, SHARE = 0.5, 0.03  #: local friction, and sigma/u_z0 where nothing else is said
@@ -128,35 +127,46 @@ def _series(effort: str) -> tuple[list[Series], list[Series], list[Series]]:
 
 
 def claim(effort: str) -> Claim:
-    """Draw histories, follow them, and set friction beside the laws."""
+    """Under random vibration there is no critical velocity, but a law of what friction loses
+
+    How: Draw histories, follow them, and set friction beside the laws.
+
+    Quote: The paper has harmonic oscillations, and Eq. (1) takes their amplitude; a random one has none.
+
+    Range: {n_spectra} Gaussian spectra: a narrow band (a fifth of its frequency), the upper half of a flat band, all of
+    it, a table that falls from a peak, two bands; flat punch and paraboloid, elastic and Kelvin (T = τ σ_a/σ_v = 1, 3);
+    σ/u_z0 = {SHARE:g} and 0.2; b = v_0/(μ_0 κ σ_v) from {slow[0].series.b[0]:g} to {fastest:g}. Rigid pull, contact
+    kept.
+
+    Measured: A spring lags behind full slip by the content of a queue that the depth feeds and the pull serves; the
+    queue itself, in plain NumPy on the same histories, gives the friction of the runs within their numerical error. The
+    law is the mean of ψ, the lag of a sine, over Rayleigh amplitudes. For a narrow band this is plain; it also is the
+    limit of fast pulls of any spectrum, as excursions of the rate above v_0/(μ_0 κ) are the tips of sines of mean
+    frequency σ_a/σ_v. Where it claims 3 %, b^2 > 20 s with s = m_2 m_6/m_4^2 − 1, runs are within two standard errors.
+    Slower it says too little: at b = 1 by {of_table:.0%} for the table (s = {table.series.density.spread:.2f}) and
+    {of_two:.0%} for two bands, at b = 0.3 by {of_wide:.0%} for a whole flat band and {of_two_slow:.0%} for two bands. A
+    narrow band of a fifth of its frequency has it to {of_narrow:.1%} down to b = 0.1. A material of T = 3 in a flat
+    band loses {of_relaxing:.0%} less than the law, a paraboloid of σ/u_z0 = 0.2 {of_deep:.0%}. There is no critical
+    velocity: a tenth of the loss at rest is left at b = {ends[0]:.2f}, a hundredth at {ends[1]:.2f}, a thousandth at
+    {ends[2]:.2f}. A slow pull finds ever deeper troughs in its past: its loss grows as √(2 log(1/b)) without end, so
+    that there is no static friction until contact is lost; at b = {slow[0].series.b[0]:g} it is {slow[0].lag[0]:.2f} σ.
+
+    Verdict: holds if b^2 > 20 (m_2 m_6/m_4^2 − 1), and the material is elastic or relaxes fast
+
+    Sentence: No velocity brings full friction: the loss fades as e^{{−b²/2}}/b^3, b = v_0/(μ_0 κ σ_v), by one law for
+    all spectra. A slower and slower pull loses more without end.
+    """
     found, slow, (relaxing, deep) = ([follow(one) for one in some] for some in _series(effort))
     ends = [laws.random_end(share) for share in (0.1, 0.01, 0.001)]
     narrow, _, wide, table, two, *_ = found
+    n_spectra, fastest, of_table = len(SPECTRA), found[1].series.b[-1], table.ratio[0] - 1
+    of_two, of_wide, of_two_slow = two.ratio[1] - 1, wide.ratio[0] - 1, two.ratio[0] - 1
+    of_narrow = narrow.ratio[0] - 1
+    of_relaxing = 1 - relaxing.ratio[0]
+    of_deep = 1 - deep.ratio[0]
     return Claim(
-        name="random_vibration",
-        title="Under random vibration there is no critical velocity, but a law of what friction loses",
-        quote="The paper has harmonic oscillations, and Eq. (1) takes their amplitude; a random one has none.",
-        range=f"{len(SPECTRA)} Gaussian spectra: a narrow band (a fifth of its frequency), the upper half of a flat"
-        " band, all of it, a table that falls from a peak, two bands; flat punch and paraboloid, elastic and Kelvin"
-        f" (T = τ σ_a/σ_v = 1, 3); σ/u_z0 = {SHARE:g} and 0.2; b = v_0/(μ_0 κ σ_v) from"
-        f" {slow[0].series.b[0]:g} to {found[1].series.b[-1]:g}. Rigid pull, contact kept.",
-        measured="A spring lags behind full slip by the content of a queue that the depth feeds and the pull serves;"
-        " the queue itself, in plain NumPy on the same histories, gives the friction of the runs within their numerical"
-        " error. The law is the mean of ψ, the lag of a sine, over Rayleigh amplitudes. For a narrow band this is"
-        " plain; it also is the limit of fast pulls of any spectrum, as excursions of the rate above v_0/(μ_0 κ) are"
-        " the tips of sines of mean frequency σ_a/σ_v. Where it claims 3 %, b^2 > 20 s with s = m_2 m_6/m_4^2 − 1, runs"
-        f" are within two standard errors. Slower it says too little: at b = 1 by {table.ratio[0] - 1:.0%} for the"
-        f" table (s = {table.series.density.spread:.2f}) and {two.ratio[1] - 1:.0%} for two bands, at b = 0.3 by"
-        f" {wide.ratio[0] - 1:.0%} for a whole flat band and {two.ratio[0] - 1:.0%} for two bands. A narrow band of a"
-        f" fifth of its frequency has it to {narrow.ratio[0] - 1:.1%} down to b = 0.1. A material of T = 3 in a flat"
-        f" band loses {1 - relaxing.ratio[0]:.0%} less than the law, a paraboloid of σ/u_z0 = 0.2"
-        f" {1 - deep.ratio[0]:.0%}. There is no critical velocity: a tenth of the loss at rest is left at b ="
-        f" {ends[0]:.2f}, a hundredth at {ends[1]:.2f}, a thousandth at {ends[2]:.2f}. A slow pull finds ever deeper"
-        " troughs in its past: its loss grows as √(2 log(1/b)) without end, so that there is no static friction"
-        f" until contact is lost; at b = {slow[0].series.b[0]:g} it is {slow[0].lag[0]:.2f} σ.",
-        verdict="holds if b^2 > 20 (m_2 m_6/m_4^2 − 1), and the material is elastic or relaxes fast",
-        sentence="No velocity brings full friction: the loss fades as e^{−b²/2}/b^3, b = v_0/(μ_0 κ σ_v), by one law"
-        " for all spectra. A slower and slower pull loses more without end.",
+        "random_vibration",
+        **told(claim, locals()),
         checks=(
             *_law_checks(found),
             *_queue_checks(wide),
@@ -285,8 +295,13 @@ def _fail_checks(found: Sequence[Found], relaxing: Found, deep: Found) -> Checks
 
 
 @figure("random", 1, 2, size=(10.4, 4.4))
-def _figure(fig, axes, found: Sequence[Found], slow: Sequence[Found]) -> str:
-    """Left: loss falls over velocity as the laws do, on a logarithmic scale; right: it grows as the pull gets slower"""
+def _figure(fig, axes, found: Sequence[Found], slow: Sequence[Found]):
+    """Left: loss falls over velocity as the laws do, on a logarithmic scale; right: it grows as the pull gets
+    slower
+
+    What springs lag behind full slip under random vibration. Left: fast pulls of five spectra on the law of sines with
+    Rayleigh amplitudes, two standard errors. Right: slow ones; the loss grows without end, but later for a narrow band.
+    """
     fast, at_rest = axes
     b = np.linspace(0.1, 2.7, 27)
     for T, line in ((0.0, "-"), (1.0, "--")):
@@ -306,8 +321,3 @@ def _figure(fig, axes, found: Sequence[Found], slow: Sequence[Found]) -> str:
         at_rest.plot(*zip(*every, strict=True), "o", color=COLOURS[place], mfc="w", ms=4.5, label=one.series.spectrum)
     at_rest.set(xscale="log", xlabel=r"$b$", ylabel=r"mean lag over $\sigma$")
     at_rest.legend(fontsize=8)
-    return (
-        "What springs lag behind full slip under random vibration. Left: fast pulls of five spectra on the law of sines"
-        " with Rayleigh amplitudes, two standard errors. Right: slow ones; the loss grows without end, but later for a"
-        " narrow band."
-    )

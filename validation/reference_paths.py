@@ -72,73 +72,34 @@ def ball_paths() -> list[Path]:
     taps = np.arange(161) * 2 * np.pi / 32
     shaken = [(0.5, 0.0, 1.0), *((0.5 + 0.02 * k, 0.25 * (-1) ** k, 1.0) for k in range(21))]
     low, high = carried(0.6), carried(1.5)
-    given: list[tuple[str, str, np.ndarray, str]] = [
+    given = [
         ("pull", "partial slip before full slip", through(along([0, 1.5]), 30), "Cattaneo 1938; Mindlin 1949"),
         ("reversal", "hysteresis loop", through(along([0, 0.7, -0.7, 0.7]), 20), "Mindlin and Deresiewicz 1953"),
         ("memory", "loops inside loops", through(along([0, 0.8, -0.4, 0.4, -0.1, 0.2, -0.4, 0.9, 1.2]), 8), STEPS),
-        (
-            "load_raised",
-            "load raised at fixed way and pulled on",
-            through([(0, 0, 1), (0.6, 0, 1), (0.6, 0, high), (1.6, 0, high)], 12),
-            "Mindlin and Deresiewicz 1953",
-        ),
-        (
-            "load_lowered",
-            "load lowered at fixed way and pulled on and reversed",
-            through([(0, 0, 1), (0.6, 0, 1), (0.6, 0, low), (1, 0, low), (0, 0, low), (0, 0, 1), (0.3, 0, 1)], 10),
-            STEPS,
-        ),
-        (
-            "load_cycles",
-            "load up and down at fixed way: what is lost is lost once",
-            through([(0, 0, 1), (0.5, 0, 1), *5 * [(0.5, 0, carried(1.3)), (0.5, 0, carried(0.7))], (0.5, 0, 1)], 6),
-            STEPS,
-        ),
-        (
-            "held_load",
-            "small cycles of the way under a held load: no creep",
-            through(along([0, 0.4, *10 * [0.3, 0.4]]), 6),
-            STEPS,
-        ),
-        (
-            "oblique",
-            "pressed and pulled at once: no slip at a flat angle",
-            through([(0, 0, 0), (0.8, 0, 1), (1.4, 0, 1)], 20),
-            "Mindlin and Deresiewicz 1953",
-        ),
-        (
-            "oblique_steep",
-            "pressed and pulled at once: full slip at a steep angle",
-            through([(0, 0, 0), (1.2, 0, 1), (0.6, 0, 0.3)], 20),
-            STEPS,
-        ),
-        (
-            "lift_off",
-            "lifted and moved in the air and back",
-            through([(0, 0, 1), (0.6, 0, 1), (0.6, 0, -0.2), (2, 0, -0.2), (2, 0, 1), (2.5, 0, 0.8)], 10),
-            STEPS,
-        ),
-        (
-            "tapping",
-            "taps that lose the contact during a slow slide",
-            np.column_stack([0.02 * np.arange(161), np.zeros(161), 1 + 1.2 * np.sin(taps)]),
-            STEPS,
-        ),
+        ("load_raised", "load raised at fixed way and pulled on",
+         through([(0, 0, 1), (0.6, 0, 1), (0.6, 0, high), (1.6, 0, high)], 12), "Mindlin and Deresiewicz 1953"),
+        ("load_lowered", "load lowered at fixed way and pulled on and reversed",
+         through([(0, 0, 1), (0.6, 0, 1), (0.6, 0, low), (1, 0, low), (0, 0, low), (0, 0, 1), (0.3, 0, 1)], 10), STEPS),
+        ("load_cycles", "load up and down at fixed way: what is lost is lost once",
+         through([(0, 0, 1), (0.5, 0, 1), *5 * [(0.5, 0, carried(1.3)), (0.5, 0, carried(0.7))], (0.5, 0, 1)], 6),
+         STEPS),
+        ("held_load", "small cycles of the way under a held load: no creep",
+         through(along([0, 0.4, *10 * [0.3, 0.4]]), 6), STEPS),
+        ("oblique", "pressed and pulled at once: no slip at a flat angle",
+         through([(0, 0, 0), (0.8, 0, 1), (1.4, 0, 1)], 20), "Mindlin and Deresiewicz 1953"),
+        ("oblique_steep", "pressed and pulled at once: full slip at a steep angle",
+         through([(0, 0, 0), (1.2, 0, 1), (0.6, 0, 0.3)], 20), STEPS),
+        ("lift_off", "lifted and moved in the air and back",
+         through([(0, 0, 1), (0.6, 0, 1), (0.6, 0, -0.2), (2, 0, -0.2), (2, 0, 1), (2.5, 0, 0.8)], 10), STEPS),
+        ("tapping", "taps that lose the contact during a slow slide",
+         np.column_stack([0.02 * np.arange(161), np.zeros(161), 1 + 1.2 * np.sin(taps)]), STEPS),
         ("turn", "pulled along x and then along y", through([(0, 0, 1), (1.2, 0, 1), (1.2, 1.2, 1)], 30), STEPS),
-        (
-            "circle",
-            "two rounds on a circle",
-            np.column_stack([0.6 * (turn.real - 1), 0.6 * turn.imag, np.ones(49)]),
-            STEPS,
-        ),
-        (
-            "eight",
-            "a figure of eight with a load that changes and is lost",
-            np.column_stack([np.sin(eight), 0.7 * np.sin(2 * eight), 0.8 - 0.9 * np.sin(1.5 * eight)]),
-            STEPS,
-        ),
+        ("circle", "two rounds on a circle",
+         np.column_stack([0.6 * (turn.real - 1), 0.6 * turn.imag, np.ones(49)]), STEPS),
+        ("eight", "a figure of eight with a load that changes and is lost",
+         np.column_stack([np.sin(eight), 0.7 * np.sin(2 * eight), 0.8 - 0.9 * np.sin(1.5 * eight)]), STEPS),
         ("shaken_across", "a slow pull shaken across", through(shaken, 6), STEPS),
-    ]
+    ]  # fmt: skip
     return [elastic(f"ball_{name}", BALL, asks, rows, checked) for name, asks, rows, checked in given]
 
 
@@ -147,15 +108,13 @@ def punch_paths() -> list[Path]:
     legs = through([(0, 0, 1), (1.5, 0, 1), (0.9, 0, 1), (0.9, 2, 1), (-1, 1, 1)], 10)
     round_ = 1.2 * np.exp(2j * np.pi * np.arange(49) / 24)
     load = np.interp(np.arange(49), [0, 12, 24, 30, 36, 48], [1, 1.6, 0.4, -0.3, 0.8, 1.2])
+    circle, asks = (
+        np.column_stack([round_.real - 1.2, round_.imag, load]),
+        "a circle under a load that changes and is lost",
+    )
     return [
         elastic("punch_legs", PUNCH, "full slip and a reversal and a leg across", legs, "tractrix"),
-        elastic(
-            "punch_circle",
-            PUNCH,
-            "a circle under a load that changes and is lost",
-            np.column_stack([round_.real - 1.2, round_.imag, load]),
-            STEPS,
-        ),
+        elastic("punch_circle", PUNCH, asks, circle),
     ]
 
 
@@ -183,17 +142,12 @@ def relaxing() -> Path:
     is positive, what is then held sticks.
     """
     contact = PUNCH._replace(E_1=PUNCH.E, tau_1=0.05)
-    theta, rho, way, stiffness = (
-        contact.tau_1,
-        contact.E_1 / contact.E,
-        unit(contact),
-        2 * contact.E_star * contact.size,
-    )
+    theta, rho, way = contact.tau_1, contact.E_1 / contact.E, unit(contact)
+    stiffness = 2 * contact.E_star * contact.size
     pressed, begins, ends = 0.02, 0.06, 0.1
     v = 1.6 * way / (ends - begins)
-    t = np.concatenate(
-        [through([(one,) for one in (0, pressed, begins, ends)], 10)[:, 0], np.linspace(ends, 0.3, 33)[1:]]
-    )
+    corners = [(one,) for one in (0, pressed, begins, ends)]
+    t = np.concatenate([through(corners, 10)[:, 0], np.linspace(ends, 0.3, 33)[1:]])
 
     def arm(t: np.ndarray) -> np.ndarray:
         """Of what has grown with the rate 1 for the time t."""

@@ -52,9 +52,9 @@ class Contact(NamedTuple):
     def load(self, d: np.ndarray) -> np.ndarray:
         """Elastic normal force at depths: Boussinesq, Hertz."""
         d = np.maximum(d, 0)
-        return (
-            2 * self.E_star * self.size * d if self.shape == "punch" else 4 / 3 * self.E_star * self.size**0.5 * d**1.5
-        )
+        if self.shape == "punch":
+            return 2 * self.E_star * self.size * d
+        return 4 / 3 * self.E_star * self.size**0.5 * d**1.5
 
 
 Springs = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]  #: gaps (n,) -> extensions (rows, n), histories (n,)

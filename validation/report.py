@@ -3,11 +3,12 @@
 Text is written plainly and set by the page, see validation/typeset.py.
 """
 
+import inspect
 import io
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -195,6 +196,21 @@ class Claim:
     def held(self) -> bool:
         """Whether all of them did."""
         return self.n_held == len(self.checks)
+
+
+def told(claim: Callable[..., Any], numbers: Mapping[str, Any]) -> dict[str, str]:
+    """What the docstring of a function that gives a claim, or a part of one, says of it, by the names of the fields.
+
+    The first paragraph is the title; others begin with the name of a field, as "Range: ...", or with "How: ", which
+    tells the reader of the code what is done. Names in braces are numbers: local to the function, or of its module.
+    """
+    title, *paragraphs = re.sub(r"(?<!\n)\n(?!\n)", " ", inspect.getdoc(claim) or "").split("\n\n")
+    texts = {"title": title, "quote": ""}
+    for paragraph in paragraphs:
+        field, _, text = paragraph.partition(": ")
+        texts[field.lower()] = text.format_map({**claim.__globals__, **numbers})
+    texts.pop("how", None)
+    return texts
 
 
 def write_record(claims: Sequence[Claim], folder: str | Path) -> None:

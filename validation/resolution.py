@@ -16,12 +16,11 @@ from typing import Any
 import numpy as np
 
 import mdr
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import SWUNG, contact, loss
-from validation.figures import figure, ticks
+from validation.figures import COLOURS, figure, ticks
 from validation.measured import power
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import span
 
 LEVELS = {
@@ -109,24 +108,34 @@ def bound(name: str, case: mdr.SlidingContact, v_0: float) -> Bound:
 
 
 def claim(effort: str) -> Claim:
-    """Fit the orders and test the error bound."""
+    """The runs are resolved
+
+    How: Fit the orders and test the error bound.
+
+    Range: paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light damper,
+    elastic and ωτ = 1, {n_velocities} or more velocities from 0.2 to 0.9 v_c; {steps}, {springs}; the bound also on
+    bodies {hard}
+
+    Measured: Observed orders {orders_found}. With default knobs the true error is at most {percent:.0f} % of the stated
+    one, which is at most {largest:.1e} of mu_0.
+
+    Verdict: holds
+
+    Sentence: The COF converges at least with the second power of step and spring spacing. The stated error bounds the
+    true one in all runs of this claim, and in 99 of 100 random ones of a harmonic motion.
+    """
     studies = [study(*one, VELOCITIES[effort]) for one in product(("steps", "springs"), SYSTEMS, (0.0, 1.0))]
     found = bounds(effort)
     worst = max(found, key=lambda bound: bound.true / bound.stated)
     largest = max(bound.stated for bound in found)
     orders = [s.order for s in studies]
+    n_velocities, steps, springs = VELOCITIES[effort], _span("steps"), _span("springs")
+    hard = ", ".join(HARD)
+    orders_found = span(orders)
+    percent = 100 * worst.true / worst.stated
     return Claim(
-        name="resolution",
-        title="The runs are resolved",
-        quote="",
-        range=f"paraboloid that loses contact at its edge, α = {ALPHA:g}, rigid pull and spring pull with a light"
-        f" damper, elastic and ωτ = 1, {VELOCITIES[effort]} or more velocities from 0.2 to 0.9 v_c; {_span('steps')},"
-        f" {_span('springs')}; the bound also on bodies {', '.join(HARD)}",
-        measured=f"Observed orders {span(orders)}. With default knobs the true error is at most"
-        f" {100 * worst.true / worst.stated:.0f} % of the stated one, which is at most {largest:.1e} of mu_0.",
-        verdict="holds",
-        sentence="The COF converges at least with the second power of step and spring spacing. The stated error bounds "
-        "the true one in all runs of this claim, and in 99 of 100 random ones of a harmonic motion.",
+        "resolution",
+        **told(claim, locals()),
         checks=(*_order_checks(studies), *_bound_checks(found)),
         figures=(_figure(studies),),
     )
@@ -151,8 +160,13 @@ def _span(knob: str) -> str:
 
 
 @figure("orders", 1, 2, size=(8.8, 4.9), sharey=True)
-def _figure(fig, axes, studies: list[Study]) -> str:
-    """Two log-log plots of errors that fall with the second or a higher power of the resolution."""
+def _figure(fig, axes, studies: list[Study]):
+    """Two log-log plots of errors that fall with the second or a higher power of the resolution.
+
+    Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and against the
+    springs, right. The least-squares lines have the slopes of the legends, {orders}: second order (dashed) or better,
+    up to the scatter of the kinks.
+    """
     tau = r"$\omega\tau$"
     for ax, knob, label in zip(axes, ("steps", "springs"), ("steps per period", "springs"), strict=True):
         n = np.array(LEVELS[knob], dtype=float)
@@ -167,8 +181,4 @@ def _figure(fig, axes, studies: list[Study]) -> str:
         ticks(ax.xaxis, *n[:: 4 if knob == "steps" else 1])
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), title="observed order")
     axes[0].set_ylabel(r"error of $\mu/\mu_0$")
-    return (
-        "Error of the COF (root mean square over pulling velocities) against the steps of a period, left, and against"
-        " the springs, right. The least-squares lines have the slopes of the legends,"
-        f" {span([s.order for s in studies])}: second order (dashed) or better, up to the scatter of the kinks."
-    )
+    return {"orders": span([s.order for s in studies])}

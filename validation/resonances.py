@@ -27,12 +27,11 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import contact, loss
-from validation.figures import figure, ticks
+from validation.figures import COLOURS, figure, ticks
 from validation.measured import TOLERANCE, power, worst
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import listed, percent
 
 ALPHA, STIFFNESS = 0.3, 1.5  # du_z/u_z0, k_x/k_xc
@@ -79,7 +78,32 @@ def contacts(effort: str) -> list[tuple[str, float, int]]:
 
 
 def claim(effort: str) -> Claim:
-    """COF far above Eq. (15) on every resonance, v_c with and without damping, the width of the window."""
+    """Eq. (15) gives v_c also where the body resonates
+
+    How: COF far above Eq. (15) on every resonance, v_c with and without damping, the width of the window.
+
+    Quote: Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where v_c
+    becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a plateau (which
+    is less than μ_0) at fairly low sliding velocities and does not change thereafter. (Section 1, on Eq. (2))
+
+    Range: {shapes}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c; ωτ = {times}; ω_0/ω = {multiples}; without damper
+    and with one of 1 %; velocities up to {fastest} times Eq. (15).
+
+    Measured: Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has more (a
+    paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is an n-th: its
+    swing grows until it comes to rest on the indenter once in each of its own periods, and at any velocity, however
+    high, the COF stays below 1 − |F_n|/F_0 of μ_0, to which it tends. There it is lower than μ_0 by {reduced}. This
+    share goes like α^n for an elastic contact, like α^2 for a viscoelastic one. With a damper of 1 % there is a
+    critical velocity again, that of full slip with all harmonics; it is off Eq. (15) by up to {far_percent:+.0f} %
+    ({far_name}). Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the
+    drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on
+    ({locked}).{still}{faint_ones}
+
+    Verdict: fails when ω_0 is a whole multiple nω of ω, n ≥ 2
+
+    Sentence: Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its force:
+    without damping friction stays reduced by |F_n|/F_0 or more at any velocity.
+    """
     known = contacts(effort)
     driven = [knobs for knobs in known if share(*knobs) > LEAST]
     idle = [knobs for knobs in known if share(*knobs) < 1e-12]
@@ -91,33 +115,16 @@ def claim(effort: str) -> Claim:
     far = max(damped.items(), key=lambda item: abs(item[1][0] or np.nan))
     growing = [f"{_name(knobs)} at {v} v_c" for knobs in driven for v in speeds if np.isnan(reduction(*knobs, v)[0])]
     unseen = "; ".join(f"{s}, ωτ = {T:g}, ω_0 = {n}ω: |F_n|/F_0 = {share(s, T, n):.1e}" for s, T, n in faint)
+    shapes, times = " and ".join(LOOKS), listed(sorted({T for _, T, _ in known}))
+    multiples, fastest = listed(sorted({n for _, _, n in known})), max(speeds)
+    reduced = "; ".join(f"{percent(share(*knobs))} ({_name(knobs)})" for knobs in driven)
+    far_percent, far_name = 100 * ((far[1][0] or np.nan) - 1), _name(far[0])
+    locked = "; ".join(f"{_name(knobs)}: {laws.lock_in(knobs[2]):.4f}" for knobs in idle)
+    still = f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else ""
+    faint_ones = f" Too faint to be told from the error of a run: {unseen}." if unseen else ""
     return Claim(
-        name="resonances",
-        title="Eq. (15) gives v_c also where the body resonates",
-        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where"
-        " v_c becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
-        " plateau (which is less than μ_0) at fairly low sliding velocities and does not change thereafter. (Section 1,"
-        " on Eq. (2))",
-        range=f"{' and '.join(LOOKS)}, Δu_z/u_z0 = {ALPHA:g}, k_x = {STIFFNESS:g} k_x,c; ωτ ="
-        f" {listed(sorted({T for _, T, _ in known}))}; ω_0/ω = {listed(sorted({n for _, _, n in known}))}; without"
-        f" damper and with one of 1 %; velocities up to {max(speeds)} times Eq. (15).",
-        measured="Eq. (15) has one pole, ω_0 = ω. A punch has one harmonic and does just that. A curved contact has"
-        " more (a paraboloid all of them), and an undamped body with ω_0 = nω has no critical velocity where there is"
-        " an n-th: its swing grows until it comes to rest on the indenter once in each of its own periods, and at any"
-        " velocity, however high, the COF stays below 1 − |F_n|/F_0 of μ_0, to which it tends. "
-        + "There it is lower than μ_0 by "
-        + "; ".join(f"{percent(share(*knobs))} ({_name(knobs)})" for knobs in driven)
-        + ". This share goes like α^n for an elastic contact, like α^2 for a viscoelastic one."
-        " With a damper of 1 % there is a critical velocity again, that of full slip with all"
-        f" harmonics; it is off Eq. (15) by up to {100 * ((far[1][0] or np.nan) - 1):+.0f} % ({_name(far[0])})."
-        + " Where the force has no n-th harmonic the undamped body locks in: a free oscillation in step with the"
-        " drive keeps every spring from sticking, and friction is full from cos(π/2n) of Eq. (15) on"
-        f" ({'; '.join(f'{_name(knobs)}: {laws.lock_in(knobs[2]):.4f}' for knobs in idle)})."
-        + (f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else "")
-        + (f" Too faint to be told from the error of a run: {unseen}." if unseen else ""),
-        verdict="fails when ω_0 is a whole multiple nω of ω, n ≥ 2",
-        sentence="Eq. (15) has one pole; a contact whose stiffness grows with depth has one at each ω_0 = nω of its"
-        " force: without damping friction stays reduced by |F_n|/F_0 or more at any velocity.",
+        "resonances",
+        **told(claim, locals()),
         checks=(*checks, *_pole_checks(driven), *_order_checks()),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),
     )
@@ -202,8 +209,13 @@ def _order_checks() -> Checks:
 
 
 @figure("plateau", size=(7.2, 4.6))
-def _plateau_figure(fig, ax, driven: list[Any], speeds: tuple[int, ...]) -> str:
-    """Reduction of friction over the share of the driving harmonic, falling to one with the velocity."""
+def _plateau_figure(fig, ax, driven: list[Any], speeds: tuple[int, ...]):
+    """Reduction of friction over the share of the driving harmonic, falling to one with the velocity.
+
+    Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs (symbols). It
+    does not come back to μ_0: what is missing comes down to |F_n|/F_0, the share of the harmonic of the normal force
+    that drives the body, like v_0^{{−1/2}}, and never below it.
+    """
     shown = [knobs for knobs in driven if knobs[1] == 0.0]
     velocities = np.geomspace(1.5, max(speeds), 6 if len(speeds) == 1 else 14)
     for shape, T, n in shown:
@@ -216,16 +228,16 @@ def _plateau_figure(fig, ax, driven: list[Any], speeds: tuple[int, ...]) -> str:
     ax.set(xlabel="$v_0$ over Eq. (15), on its pole over Eq. (1)", ylabel=r"$(1 - \mu/\mu_0)$ over $|F_n|/F_0$")
     ax.legend(loc="upper right")
     ticks(ax.xaxis, *(2, 5, 10, 20, 50, 100)[: 4 if len(speeds) == 1 else 6])
-    return (
-        "Friction of an undamped body on its resonances, elastic, far above the velocity of Eq. (15), from runs"
-        " (symbols). It does not come back to μ_0: what is missing comes down to |F_n|/F_0, the share of the harmonic"
-        " of the normal force that drives the body, like v_0^{−1/2}, and never below it."
-    )
 
 
 @figure("window", 1, 2, size=(9.6, 4.2), sharey=True)
-def _window_figure(fig, axes, effort: str, damped: dict[Any, Any]) -> str:
-    """Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch."""
+def _window_figure(fig, axes, effort: str, damped: dict[Any, Any]):
+    """Critical velocity over natural frequency: spikes at whole multiples for the paraboloid, one for the punch.
+
+    Critical velocity in full slip over the natural frequency of the body. The punch has the one pole of Eq. (15); the
+    paraboloid has one at every whole multiple, the narrower the higher, and wider where the material dissipates and the
+    force is less sinusoidal. A damper of 1 % (dotted) leaves the first two. Symbols: measured, with damper{only}.
+    """
     aside = np.geomspace(1e-4, 0.45, 7 if effort == "quick" else 40)
     near = [n + side * s for n in MULTIPLES for side in (-1, 1) for s in aside]
     even = np.linspace(0.55, 5.5, 30 if effort == "quick" else 120)
@@ -247,9 +259,4 @@ def _window_figure(fig, axes, effort: str, damped: dict[Any, Any]) -> str:
         ax.set_title("elastic" if T == 0 else rf"Kelvin, $\omega\tau = {T:g}$")
     axes[0].set_ylabel("full-slip $v_c$ over Eq. (1)")
     fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return (
-        "Critical velocity in full slip over the natural frequency of the body. The punch has the one pole of Eq. (15);"
-        " the paraboloid has one at every whole multiple, the narrower the higher, and wider where the material"
-        " dissipates and the force is less sinusoidal. A damper of 1 % (dotted) leaves the first two. Symbols:"
-        f" measured, with damper{', elastic only' if effort == 'quick' else ''}."
-    )
+    return {"only": ", elastic only" if effort == "quick" else ""}

@@ -19,12 +19,11 @@ import numpy as np
 import mdr
 from mdr import laws
 from mdr.closed_forms.rigid_pull import Asymptote, average_friction, near_critical, small_velocity
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import SHAPES, contact, shape_label
-from validation.figures import circles, figure
+from validation.figures import COLOURS, circles, figure
 from validation.measured import SHARP, Point, measured, worst
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 from validation.words import listed
 
 Measured = dict[tuple[float, float], list[Point]]  #: by alpha and T
@@ -47,7 +46,34 @@ TAPPING = -1 / 3  # u_z0/du_z of contacts that exist for less than half of the p
 
 
 def claim(effort: str) -> Claim:
-    """Measure v_c by runs alone, and set the closed form of the COF beside runs and its own ends."""
+    """Under a rigid pull v_c depends neither on shape, depth nor rheology
+
+    How: Measure v_c by runs alone, and set the closed form of the COF beside runs and its own ends.
+
+    Quote: In the limit of a very stiff system spring, k_x → ∞, the critical velocity, Eq. (15), is reduced to Eq. (1),
+    which thus appears to be valid independently of the viscoelastic properties of the medium. (Section 2.2.2)
+
+    Range: {n_contacts} contacts of four shapes, Δu_z/u_z0 from {least_alpha:g} to {most_alpha:g} and tapping from above
+    the surface, ωτ from {least_T:g} to {most_T:g}; v_c measured from runs alone. COF of {n_runs} further runs against
+    the closed form, which is then followed to both ends of its curve.
+
+    Measured: Eq. (1) is exact far beyond the limits it was derived under: not only for small amplitudes and unbroken
+    contact, but for every shape and amplitude, as long as the contact exists at the instant when the depth grows
+    fastest, a quarter of a period before the deepest point. Loss of contact, Eq. (5), does no harm by itself. What ends
+    Eq. (1) is a surface that comes back late: a slow rubber does so for Δu_z/u_z0 above α_1 = min (e^{{θ/ωτ}} − 1)/|sin
+    θ| over π < θ < 2π, that is {limit_1:.0f} at ωτ = 1 (never, in practice), {limit_10:.2f} at ωτ = 10 and
+    {limit_30:.3f} at ωτ = 30, tending to {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1)
+    times sin|φ_c| with φ_c the phase at which the centre touches again: {late:.2f} at ωτ = 30 and Δu_z = u_z0. It is
+    still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of the COF within
+    their own bounds. An elastic contact joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose lag outlives the stick,
+    with (1 − v_0/v_c)^{{3/2}}: so softly that a velocity at which the COF comes close to μ_0 is not v_c. The other end,
+    at v_0 → 0, is shown with the static value.
+
+    Verdict: holds if the contact is closed at the moment of fastest approach
+
+    Sentence: One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by
+    tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1).
+    """
     cases = QUICK if effort == "quick" else FULL
     found = {(alpha, T): _measure(alpha, T, shapes) for alpha, T, shapes in cases}
     shapes = ("flat punch",) if effort == "quick" else ("flat punch", "paraboloid")
@@ -55,31 +81,15 @@ def claim(effort: str) -> Claim:
     marched = _marched(effort)
     alphas, times = ([case[i] for case in cases] for i in (0, 1))
     slow = laws.slow_limit()
+    n_contacts = sum(len(shapes) for _, _, shapes in cases)
+    least_alpha = min(alphas)
+    most_alpha = max(alphas)
+    least_T, most_T, n_runs = min(times), max(times), len(marched)
+    limit_1, limit_10 = laws.amplitude_limit(1.0), laws.amplitude_limit(10.0)
+    limit_30, late = laws.amplitude_limit(30.0), laws.late_return(1.0, 30.0)
     return Claim(
-        name="rigid_pull",
-        title="Under a rigid pull v_c depends neither on shape, depth nor rheology",
-        quote="In the limit of a very stiff system spring, k_x → ∞, the critical velocity, Eq. (15), is reduced to Eq."
-        " (1), which thus appears to be valid independently of the viscoelastic properties of the medium. (Section"
-        " 2.2.2)",
-        range=f"{sum(len(shapes) for _, _, shapes in cases)} contacts of four shapes, Δu_z/u_z0 from {min(alphas):g} to"
-        f" {max(alphas):g} and tapping from above the surface, ωτ from {min(times):g} to {max(times):g}; v_c measured"
-        f" from runs alone. COF of {len(marched)} further runs against the closed form, which is then followed to both"
-        " ends of its curve.",
-        measured="Eq. (1) is exact far beyond the limits it was derived under: not only for small amplitudes and"
-        " unbroken contact, but for every shape and amplitude, as long as the contact exists at the instant when the"
-        " depth grows fastest, a quarter of a period before the deepest point. Loss of contact, Eq. (5), does no harm"
-        " by itself. What ends Eq. (1) is a surface that comes back late: a slow rubber does so for Δu_z/u_z0 above α_1"
-        f" = min (e^{{θ/ωτ}} − 1)/|sin θ| over π < θ < 2π, that is {laws.amplitude_limit(1.0):.0f} at ωτ = 1 (never, in"
-        f" practice), {laws.amplitude_limit(10.0):.2f} at ωτ = 10 and {laws.amplitude_limit(30.0):.3f} at ωτ = 30,"
-        f" tending to {slow:.1f}/ωτ. Beyond, and under tapping (u_z0 < 0), v_c is lower, Eq. (1) times sin|φ_c| with"
-        f" φ_c the phase at which the centre touches again: {laws.late_return(1.0, 30.0):.2f} at ωτ = 30 and Δu_z ="
-        " u_z0. It is still the same for all shapes, since the centre decides. Below v_c runs follow the closed form of"
-        " the COF within their own bounds. An elastic contact joins μ_0 with (1 − v_0/v_c)^2, a Kelvin contact, whose"
-        " lag outlives the stick, with (1 − v_0/v_c)^{3/2}: so softly that a velocity at which the COF comes close to"
-        " μ_0 is not v_c. The other end, at v_0 → 0, is shown with the static value.",
-        verdict="holds if the contact is closed at the moment of fastest approach",
-        sentence="One v_c for every shape and relaxation time, that of Eq. (1), unless the surface comes back late: by"
-        f" tapping, or for Δu_z/u_z0 above about {slow:.1f}/ωτ (ωτ ≫ 1).",
+        "rigid_pull",
+        **told(claim, locals()),
         checks=(*_velocity_checks(found, tapped), *_march_checks(marched), *_end_checks()),
         figures=(_curve_figure(), _end_figure()),
         equations=_EQUATIONS,
@@ -211,8 +221,13 @@ def _term_checks(name: str, fits: list[Asymptote], laws: list[Asymptote]) -> Che
 
 
 @figure("curves", 1, 2, size=(9.4, 4.2), sharey=True)
-def _curve_figure(fig, axes) -> str:
-    """COF over mu_0 against v_0 over v_c for four shapes, elastic and Kelvin, all ending at v_c."""
+def _curve_figure(fig, axes):
+    """COF over mu_0 against v_0 over v_c for four shapes, elastic and Kelvin, all ending at v_c.
+
+    COF of the four shapes under a rigid pull, Δu_z/u_z0 = {alpha:g}. Each starts at its own static value and takes its
+    own way, and all reach μ_0 at the velocity of Eq. (1). Viscosity lowers the static value and bends the start
+    upwards, but leaves v_c where it was.
+    """
     alpha, grid = 0.3, 1.2 * np.linspace(0, 1, 200) ** 2
     for ax, T in zip(axes, (0.0, 1.0), strict=True):
         for shape in SHAPES:
@@ -225,11 +240,7 @@ def _curve_figure(fig, axes) -> str:
         ax.annotate("$v_c$", (1.0, 1.0), (0, 3), ("data", "axes fraction"), "offset points", ha="center")
     axes[0].set_ylabel(r"coefficient of friction $\mu/\mu_0$")
     axes[0].legend(loc="lower center")
-    return (
-        f"COF of the four shapes under a rigid pull, Δu_z/u_z0 = {alpha:g}. Each starts at its own static value and"
-        " takes its own way, and all reach μ_0 at the velocity of Eq. (1). Viscosity lowers the static value"
-        " and bends the start upwards, but leaves v_c where it was."
-    )
+    return {"alpha": alpha}
 
 
 def read_off(case: mdr.SlidingContact, short: float) -> float:
@@ -247,8 +258,15 @@ def _reach(case: mdr.SlidingContact) -> float:
 
 
 @figure("near-critical", 1, 2, size=(9.4, 4.4), sharey=True)
-def _end_figure(fig, axes) -> str:
-    """Double logarithmic plot of one less COF over mu_0 against one less v_0 over v_c, slopes two and three halves."""
+def _end_figure(fig, axes):
+    """Double logarithmic plot of one less COF over mu_0 against one less v_0 over v_c, slopes two and three halves.
+
+    How friction joins μ_0, Δu_z/u_z0 = {alpha:g}: closed form (symbols) and leading terms, none of them fitted (lines).
+    The shapes differ by a factor alone, their stiffness over their mean force. The elastic law is good to a tenth down
+    to {elastic:.2f} v_c; that of the Kelvin contact, whose lag outlives the stick by the time τ, down to {kelvin:.3f}
+    v_c only, as below the stick is no longer short beside τ. So soft an end hides v_c: a thousandth below μ_0 (dotted)
+    the velocity is only {low:.2f} to {high:.2f} v_c.
+    """
     alpha, x, threshold = 0.3, np.geomspace(1e-4, 0.99, 25), 1e-3
     cases = {(shape, T): contact(shape, alpha, T) for shape, T in product(SHAPES, (0.0, 1.0))}
     for (shape, T), case in cases.items():
@@ -262,13 +280,7 @@ def _end_figure(fig, axes) -> str:
     axes[0].legend(loc="lower right")
     low, high = (f([read_off(case, threshold) for case in cases.values()]) for f in (min, max))
     elastic, Kelvin = (min(_reach(case) for (_, at), case in cases.items() if at == T) for T in (0.0, 1.0))
-    return (
-        f"How friction joins μ_0, Δu_z/u_z0 = {alpha:g}: closed form (symbols) and leading terms, none of them fitted"
-        " (lines). The shapes differ by a factor alone, their stiffness over their mean force. The elastic law is good"
-        f" to a tenth down to {1 - elastic:.2f} v_c; that of the Kelvin contact, whose lag outlives the stick by the"
-        f" time τ, down to {1 - Kelvin:.3f} v_c only, as below the stick is no longer short beside τ. So"
-        f" soft an end hides v_c: a thousandth below μ_0 (dotted) the velocity is only {low:.2f} to {high:.2f} v_c."
-    )
+    return {"alpha": alpha, "elastic": 1 - elastic, "kelvin": 1 - Kelvin, "low": low, "high": high}
 
 
 def _material(T: float) -> str:

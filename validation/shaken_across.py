@@ -9,8 +9,6 @@ Symbols: eta = du_y/(mu_0 kappa u_z0), alpha = du_z/u_z0, phi phase of the way a
 v_0/(omega du_y).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise, product
@@ -19,10 +17,9 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS
-from validation.cases import DEPTH, OMEGA, SHAPES, contact, loss
-from validation.figures import figure
-from validation.report import Check, Checks, Claim, Equation
+from validation.cases import DEPTH, OMEGA, SHAPES, loss, shaken
+from validation.figures import COLOURS, figure, panel
+from validation.report import Check, Checks, Claim, Equation, told
 
 MU_0 = 0.5
 FAST = (8.0, 16.0)  #: v_0/(omega du_y), of laws of fast slides
@@ -31,14 +28,9 @@ QUARTER = math.pi / 2
 RUN = "what a run promises when it chooses step and springs itself"
 
 
-def across(
-    shape: str, eta: float, alpha: float = 0.0, phi: float = 0.0, T: float = 0.0, **body: float
-) -> mdr.SlidingContact:
+def across(shape: str, eta: float, alpha: float = 0.0, phi: float = 0.0, T: float = 0.0) -> mdr.SlidingContact:
     """A contact of validation/cases.py, shaken across."""
-    case = contact(shape, alpha or 0.1, T, mu_0=MU_0, **body)
-    oscillation = case.oscillation if alpha else mdr.ConstantDepth(DEPTH)
-    du_y = eta * MU_0 * case.material.mindlin_ratio * DEPTH
-    return replace(case, oscillation=oscillation, shake=mdr.InPlaneOscillation(OMEGA, du_y=du_y, phi_y=phi))
+    return shaken(shape, alpha, T=T, eta=eta, phi_y=phi)
 
 
 def at(case: mdr.SlidingContact, r: float, accuracy: float = 1e-4) -> mdr.SlidingRun:
@@ -47,29 +39,37 @@ def at(case: mdr.SlidingContact, r: float, accuracy: float = 1e-4) -> mdr.Slidin
 
 
 def claim(effort: str) -> Claim:
-    """Fast slides beside their laws, stiffness, and the force across with and without a normal oscillation."""
+    """Shaken across its way a contact has no critical velocity
+
+    How: Fast slides beside their laws, stiffness, and the force across with and without a normal oscillation.
+
+    Range: Flat punch, cone, paraboloid and r^4, elastic and ωτ = 1, constant depth and Δu_z/u_z0 up to 0.6, rigid pull;
+    η = Δu_y/(μ_0 κ u_z0) from 0.25 to {stiffest:g}, v_0/(ω Δu_y) from {SLOW:g} to {fastest:g}.
+
+    Measured: Friction comes back to μ_0 at no velocity, whatever shape and rheology: what is missing falls like 1/v_0^2
+    and is that of the law, up to the fourth order. There is no Eq. (1) or (15) for this direction. A stiffer contact,
+    of larger η at the same shake, has less friction, down to that of a rigid contact, as its springs follow the shake
+    less; but not at slow slides: at v_0 = {SLOW:g} ω Δu_y a punch of η = {least:g} has {least_cof:.4f} of μ_0, a rigid
+    contact {rigid_cof:.4f}. With a normal oscillation of the same frequency the contact is pushed aside. Fast, most a
+    quarter of a period apart, by the law of the mean of F_N y'; slow, most in phase: shaken by what the springs can
+    follow (η = 0.5), up to {most} (of μ_0). A shake of one frequency alone makes no force across; one of two
+    frequencies does.
+
+    Verdict: holds
+
+    Sentence: Shaken across, friction is back at μ_0 at no velocity: 1 − μ/μ_0 falls like 1/v_0^2. A normal oscillation
+    beside it pushes the contact aside, by up to half of μ_0 and more.
+    """
     quick = effort == "quick"
     slow = {eta: at(across("flat punch", eta), SLOW).cof / MU_0 for eta in STIFF}
     least = min(slow, key=lambda eta: slow[eta])
     sides = {alpha: _aside(alpha, quick) for alpha in (0.3, 0.6)}
     most = ", ".join(f"{max(map(abs, found)):.2f} at Δu_z/u_z0 = {alpha:g}" for alpha, found in sides.items())
+    stiffest, fastest, least_cof = STIFF[-1], FAST[-1], slow[least]
+    rigid_cof = laws.rigid_across(SLOW)
     return Claim(
-        name="shaken_across",
-        title="Shaken across its way a contact has no critical velocity",
-        quote="",
-        range="Flat punch, cone, paraboloid and r^4, elastic and ωτ = 1, constant depth and Δu_z/u_z0 up to 0.6,"
-        f" rigid pull; η = Δu_y/(μ_0 κ u_z0) from 0.25 to {STIFF[-1]:g}, v_0/(ω Δu_y) from {SLOW:g} to {FAST[-1]:g}.",
-        measured="Friction comes back to μ_0 at no velocity, whatever shape and rheology: what is missing falls like"
-        " 1/v_0^2 and is that of the law, up to the fourth order. There is no Eq. (1) or (15) for this direction."
-        " A stiffer contact, of larger η at the same shake, has less friction, down to that of a rigid contact, as its"
-        f" springs follow the shake less; but not at slow slides: at v_0 = {SLOW:g} ω Δu_y a punch of η = {least:g} has"
-        f" {slow[least]:.4f} of μ_0, a rigid contact {laws.rigid_across(SLOW):.4f}. With a normal oscillation of the"
-        " same frequency the contact is pushed aside. Fast, most a quarter of a period apart, by the law of the mean of"
-        f" F_N y'; slow, most in phase: shaken by what the springs can follow (η = 0.5), up to {most} (of μ_0). A"
-        " shake of one frequency alone makes no force across; one of two frequencies does.",
-        verdict="holds",
-        sentence="Shaken across, friction is back at μ_0 at no velocity: 1 − μ/μ_0 falls like 1/v_0^2. A normal"
-        " oscillation beside it pushes the contact aside, by up to half of μ_0 and more.",
+        "shaken_across",
+        **told(claim, locals()),
         checks=(*_fast_checks(quick), *_stiffness_checks(quick, slow), *_side_checks(quick, sides)),
         figures=(_figure(quick),),
         equations=(
@@ -91,10 +91,9 @@ def claim(effort: str) -> Claim:
 def _fast_checks(quick: bool) -> Checks:
     """The law of fast slides, and what it leaves out."""
     for shape, T in product(("flat punch", "paraboloid") if quick else SHAPES, (0.0, 1.0)):
-        case, off = across(shape, 0.5, T=T), []
-        for r in FAST:
-            run = at(case, r, 1e-8)
-            off.append((1 - run.cof / MU_0) / laws.lost_across(case, run.v_0) - 1)
+        case = across(shape, 0.5, T=T)
+        runs = [at(case, r, 1e-8) for r in FAST]
+        off = [(1 - run.cof / MU_0) / laws.lost_across(case, run.v_0) - 1 for run in runs]
         where = f"{shape}, {loss(T)}, v_0 = {FAST[1]:g} ω Δu_y"
         why = "the next order is of the square of ω Δu_y/v_0"
         yield Check(f"lost friction over its law, less 1: {where}", off[1], 0.0, 1 / FAST[1] ** 2, why)
@@ -129,10 +128,8 @@ def _aside(alpha: float, quick: bool) -> list[float]:
 
 def _side_checks(quick: bool, sides: dict[float, list[float]]) -> Checks:
     for shape, T in product(("paraboloid",) if quick else ("flat punch", "paraboloid"), (0.0, 1.0)):
-        case, off = across(shape, 0.5, 0.4, 1.0, T), []
-        for r in FAST:
-            run = at(case, r, 1e-7)
-            off.append((run.cof_y - laws.steered_across(case, run.v_0)) / MU_0)
+        case = across(shape, 0.5, 0.4, 1.0, T)
+        off = [(run.cof_y - laws.steered_across(case, run.v_0)) / MU_0 for run in (at(case, r, 1e-7) for r in FAST)]
         where = f"{shape}, {loss(T)}, φ = 1, v_0 = {FAST[1]:g} ω Δu_y"
         name = f"force across over μ_0 F_N, less its law: {where}"
         yield Check(name, off[1], 0.0, 2 / FAST[1] ** 2, "the next order is that of the square of ω Δu_y/v_0")
@@ -154,9 +151,15 @@ def _side_checks(quick: bool, sides: dict[float, list[float]]) -> Checks:
 
 
 @figure("shaken_across", 1, 3, size=(13.2, 4.2))
-def _figure(fig, axes, quick: bool) -> str:
-    """Three panels: friction over velocity; friction over the stiffness; force across over velocity"""
-    curves, stiff, aside = axes
+def _figure(fig, axes, quick: bool):
+    """Three panels: friction over velocity; friction over the stiffness; force across over velocity
+
+    Elastic contacts shaken across. Left: friction comes back to μ_0 at no velocity; dotted is what is held at rest,
+    dashed a rigid contact. Middle: over the stiffness of the contact; dotted: rigid. At slow slides a contact that
+    yields a little has the least. Right: with a normal oscillation of phase φ the contact is pushed aside; dotted is
+    the law of fast slides.
+    """
+    (curves, stiff, aside), velocity = axes, r"$v_0/(\omega\Delta u_y)$"
     r = np.geomspace(0.02, 10, 7 if quick else 16)
     for eta, colour in zip((0.25, 0.5, 1.0, 3.0), COLOURS, strict=False):
         case = across("paraboloid", eta)
@@ -164,30 +167,20 @@ def _figure(fig, axes, quick: bool) -> str:
         if eta < 1:
             curves.axhline(laws.held_across(case.indenter, DEPTH, eta * DEPTH), color=colour, lw=1, ls=":")
     curves.plot(r, [laws.rigid_across(one) for one in r], "k--", lw=1, label="rigid")
-    curves.set(xscale="log", xlabel=r"$v_0/(\omega\Delta u_y)$", ylabel=r"$\mu/\mu_0$", title="paraboloid")
-    curves.legend()
+    panel(curves, velocity, r"$\mu/\mu_0$", "paraboloid", "x", "best")
     sizes = np.geomspace(0.25, 60, 5 if quick else 10)
     for one, colour in zip((0.03, 0.2, 1.0), COLOURS, strict=False):
-        found = [at(across("flat punch", eta), one).cof / MU_0 for eta in sizes]
-        stiff.plot(sizes, found, color=colour, label=rf"$v_0 = {one:g}\,\omega\Delta u_y$")
+        cof = [at(across("flat punch", eta), one).cof / MU_0 for eta in sizes]
+        stiff.plot(sizes, cof, color=colour, label=rf"$v_0 = {one:g}\,\omega\Delta u_y$")
         stiff.axhline(laws.rigid_across(one), color=colour, lw=1, ls=":")
-    stiff.set(xscale="log", xlabel=r"$\eta = \Delta u_y/(\mu_0\kappa u_{z0})$", ylabel=r"$\mu/\mu_0$")
-    stiff.set_title("flat punch")
-    stiff.legend()
+    panel(stiff, r"$\eta = \Delta u_y/(\mu_0\kappa u_{z0})$", r"$\mu/\mu_0$", "flat punch", "x", "best")
     for phi, colour in zip((0.0, QUARTER / 2, QUARTER), COLOURS, strict=False):
         case = across("paraboloid", 0.5, 0.3, phi)
-        found = [at(case, one).cof_y / MU_0 for one in r]
-        aside.plot(r, found, color=colour, label=rf"$\varphi = {phi / math.pi:g}\pi$")
+        aside_of = [at(case, one).cof_y / MU_0 for one in r]
+        aside.plot(r, aside_of, color=colour, label=rf"$\varphi = {phi / math.pi:g}\pi$")
         fast = r[r > 2]
         law = [laws.steered_across(case, one * OMEGA * case.shake.du_y) / MU_0 for one in fast]
         aside.plot(fast, law, ":", color=colour)
     aside.axhline(0, color="0.75", lw=0.8)
-    aside.set(xscale="log", xlabel=r"$v_0/(\omega\Delta u_y)$", ylabel=r"$\mu_y/\mu_0$")
-    aside.set_title(r"paraboloid, $\eta = 0.5$, $\Delta u_z/u_{z0} = 0.3$")
-    aside.legend()
-    return (
-        "Elastic contacts shaken across. Left: friction comes back to μ_0 at no velocity; dotted is what is held at"
-        " rest, dashed a rigid contact. Middle: over the stiffness of the contact; dotted: rigid. At slow slides a"
-        " contact that yields a little has the least. Right: with a normal oscillation of phase φ the contact is pushed"
-        " aside; dotted is the law of fast slides."
-    )
+    title = r"paraboloid, $\eta = 0.5$, $\Delta u_z/u_{z0} = 0.3$"
+    panel(aside, velocity, r"$\mu_y/\mu_0$", title, "x", "best")

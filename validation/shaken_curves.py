@@ -19,12 +19,11 @@ import mdr
 from mdr import laws
 from mdr.closed_forms.paper import deficit
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS
-from validation.cases import LOOKS, SHAPES, shaken, shape_label
-from validation.figures import figure
+from validation.cases import DEPTH, LOOKS, SHAPES, shaken, shape_label
+from validation.figures import COLOURS, figure, panel
 from validation.half_space.springs import of_springs
 from validation.measured import lost, with_band
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 
 CHIS = (0.3, 1.0, 3.0, 30.0)  #: of the figure
 ALPHA_3D = 0.4  #: du_z/u_z0 of the contact that is computed in three dimensions
@@ -33,28 +32,36 @@ RUN = "what a run promises when it chooses step and springs itself"
 
 
 def claim(effort: str) -> Claim:
-    """Scale the curves of all phases and directions on one, and look at both ends of them."""
+    """Small oscillations of any phase lower friction alike; under a great shake a contact slides as if rigid
+
+    How: Scale the curves of all phases and directions on one, and look at both ends of them.
+
+    Quote: The reduction of static and sliding friction by ultrasonic oscillation in various directions is a well-known
+    phenomenon … (Section 1)
+
+    Range: Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of μ_0 κ
+    u_z0 to a hundred times that, alone and with a normal oscillation, {phases} phases, both ways; and two of them in
+    three dimensions.
+
+    Measured: As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x
+    e^{{iφ}}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a flat
+    punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0 leaves (2/π)
+    arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the amplitude. Between the two there
+    is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At rest a contact of constant depth holds μ_0
+    F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone from Δu_x = μ_0 κ u_z0 on, for every shape. Over both
+    directions of the pull friction never falls with velocity. A half-space of ν = 0 in three dimensions, whose cells
+    feel each other, has the friction of the springs under a longitudinal oscillation as closely as under a normal one.
+
+    Verdict: holds
+
+    Sentence: Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one; a
+    shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact.
+    """
     quick = effort == "quick"
+    phases = "two" if quick else "four"
     return Claim(
-        name="shaken_curves",
-        title="Small oscillations of any phase lower friction alike; under a great shake a contact slides as if rigid",
-        quote="The reduction of static and sliding friction by ultrasonic oscillation in various directions is a"
-        " well-known phenomenon … (Section 1)",
-        range="Elastic flat punch, cone, paraboloid and r^4, rigid pull; longitudinal amplitudes from a thousandth of"
-        f" μ_0 κ u_z0 to a hundred times that, alone and with a normal oscillation, {'two' if quick else 'four'}"
-        " phases, both ways; and two of them in three dimensions.",
-        measured="As long as no spring slips back, only the difference of depth and way counts, A = |μ_0 κ Δu_z ∓ Δu_x"
-        " e^{iφ}|: the lost friction of all phases, directions and shapes is (k_xc A/(μ_0 F_N)) ψ(v_0/(ωA)), for a flat"
-        " punch exactly, for the others in the limit of small A. A longitudinal amplitude far above μ_0 κ u_z0 leaves"
-        " (2/π) arcsin(v_0/(ω Δu_x)), the law of a rigid contact, and comes to it like one over the amplitude. Between"
-        " the two there is no common curve: shape and amplitude over μ_0 κ u_z0 both tell. At rest a contact of"
-        " constant depth holds μ_0 F_N(u_z0 − Δu_x/(μ_0 κ)) in either direction: stiction is gone from Δu_x = μ_0 κ"
-        " u_z0 on, for every shape. Over both directions of the pull friction never falls with velocity. A half-space"
-        " of ν = 0 in three dimensions, whose cells feel each other, has the friction of the springs under a"
-        " longitudinal oscillation as closely as under a normal one.",
-        verdict="holds",
-        sentence="Elastic, rigid pull: small oscillations of any phase and direction have the curve of the normal one;"
-        " a shake at constant depth, great beside μ_0 κ u_z0, has the curve of a rigid contact.",
+        "shaken_curves",
+        **told(claim, locals()),
         checks=(*_small_checks(quick), *_great_checks(), *_band_checks(quick), _order_check(), *_half_space_checks()),
         figures=(_figure(quick),),
     )
@@ -79,10 +86,9 @@ def _small_checks(quick: bool) -> Checks:
 def _great_checks() -> Checks:
     sizes = (30.0, 120.0)
     for shape in SHAPES:
-        off = []
-        for chi in sizes:
-            case = shaken(shape, 0.0, chi)
-            off.append(mdr.slide(case, 0.5 * mdr.critical_velocity(case)).cof / case.mu_0 - laws.rigid_shake(0.5))
+        cases = [shaken(shape, 0.0, chi) for chi in sizes]
+        cofs = [mdr.slide(case, 0.5 * mdr.critical_velocity(case)).cof / case.mu_0 for case in cases]
+        off = [cof - laws.rigid_shake(0.5) for cof in cofs]
         name = f"COF/μ_0 less (2/π) arcsin r, r = 0.5, Δu_x = {sizes[1]:g} μ_0 κ u_z0: {shape}"
         yield Check(name, off[1], 0.0, 1.0 / sizes[1], "springs yield by μ_0 κ u_z0 at most, over the amplitude")
         falls = math.log(abs(off[1] / off[0])) / math.log(sizes[1] / sizes[0])
@@ -92,19 +98,17 @@ def _great_checks() -> Checks:
 
 def _band_checks(quick: bool) -> Checks:
     for shape in SHAPES:
-        off, sides = [], []
-        for chi in (0.2, 0.7) if quick else (0.1, 0.3, 0.5, 0.7, 0.9):
-            case = shaken(shape, 0.0, chi)
-            band = mdr.holding_band(case)
-            depth = case.cycle.u_z0
-            off.append(band.high / case.mu_0 - laws.held_under_shake(case.indenter, depth, chi * depth))
-            sides.append((band.high + band.low) / case.mu_0)
+        chis, mu_0, depth = (0.2, 0.7) if quick else (0.1, 0.3, 0.5, 0.7, 0.9), 0.5, DEPTH
+        bands = [mdr.holding_band(shaken(shape, 0.0, chi)) for chi in chis]
+        laws_of = [laws.held_under_shake(SHAPES[shape], depth, chi * depth) for chi in chis]
+        off = [band.high / mu_0 - law for band, law in zip(bands, laws_of, strict=True)]
         name = f"load held at rest over μ_0 F_N, less F_N(u_z0 − Δu_x/(μ_0 κ))/F_N(u_z0), worst: {shape}"
         yield Check(name, max(off, key=abs), 0.0, 1e-5, RUN)
+        sides = [(band.high + band.low) / mu_0 for band in bands]
         yield Check(f"its two ends added, worst: {shape}", max(sides, key=abs), 0.0, 2e-5, RUN)
         gone = mdr.holding_band(shaken(shape, 0.0, 1.002))
         name = f"width of what is held over μ_0 F_N at Δu_x = 1.002 μ_0 κ u_z0: {shape}"
-        yield Check.at_most(name, (gone.high - gone.low) / 0.5, 2e-5, RUN)
+        yield Check.at_most(name, (gone.high - gone.low) / mu_0, 2e-5, RUN)
 
 
 def _order_check() -> Check:
@@ -126,15 +130,21 @@ def _half_space_checks() -> Checks:
         case = replace(case, material=replace(case.material, nu=0.0))
         v_0 = 0.3 * mdr.critical_velocity(case)
         apart = (in_three_dimensions(case, v_0, settings).cof - of_springs(case, v_0, settings).cof) / case.mu_0
-        pressed = f"Δu_z/u_z0 = {alpha:g}" if alpha else "constant depth"
-        name = f"COF/μ_0 in three dimensions less that of springs in the same steps: paraboloid, {pressed},"
-        name += " v_0 = 0.3 v_c"
+        where = f"paraboloid, {f'Δu_z/u_z0 = {alpha:g}' if alpha else 'constant depth'}, v_0 = 0.3 v_c"
+        name = f"COF/μ_0 in three dimensions less that of springs in the same steps: {where}"
         yield Check(name, apart, 0.0, 2e-4, f"as for normal oscillations; grid of {settings.cells}² cells")
 
 
 @figure("shaken_curves", 1, 3, size=(13.2, 4.3))
-def _figure(fig, axes, quick: bool) -> str:
-    """Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude"""
+def _figure(fig, axes, quick: bool):
+    """Three panels: friction over velocity for four amplitudes; scaled loss on one curve; held load over amplitude
+
+    Elastic contacts under a rigid pull. Left: friction of a paraboloid of constant depth that is shaken along its way
+    goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at rest it holds
+    all loads of the vertical part. Middle: small oscillations of four shapes, normal and longitudinal together, each in
+    another phase, filled forward and hollow the other way: all lose ψ. Right: what is held at rest, closed form (lines)
+    and runs: nothing from χ = 1 on.
+    """
     curves, one, held = axes
     r = np.linspace(-1.2, 1.2, 25 if quick else 49)
     fine, v = np.linspace(-1.2, 1.2, 241), np.linspace(0.05, 0.95, 7 if quick else 13)
@@ -142,8 +152,8 @@ def _figure(fig, axes, quick: bool) -> str:
         case = shaken("paraboloid", 0.0, chi)
         curves.plot(*with_band(case, r, mdr.critical_velocity(case)), color=colour, label=rf"$\chi = {chi:g}$")
     curves.plot(fine, [laws.rigid_shake(x) for x in fine], "k:", lw=1, label="rigid")
-    curves.set(xlabel=r"$v_0/(\omega\Delta u_x)$", ylabel=r"$\mu/\mu_0$", title="paraboloid, longitudinal")
-    curves.legend(loc="upper left")
+    x = r"$v_0/(\omega\Delta u_x)$"
+    panel(curves, x, r"$\mu/\mu_0$", "paraboloid, longitudinal", legend="upper left")
     one.plot(v, [deficit(x) for x in v], "k", lw=1, label=r"$\psi$")
     for (shape, (colour, marker)), phi in zip(LOOKS.items(), (0.7, math.pi / 2, math.pi, 5.0), strict=True):
         for way, face in ((1, colour), (-1, "white")):
@@ -153,22 +163,13 @@ def _figure(fig, axes, quick: bool) -> str:
             name = f"{shape_label(shape)}, {phi / math.pi:.2g}$\\pi$" if way == 1 else None
             points = [lost(case, way * x * v_c, accuracy=1e-7) / unit for x in v]
             one.plot(v, points, marker, ls="", mfc=face, mec=colour, label=name)
-    one.set(xlabel=r"$v_0/(\omega A)$", ylabel=r"lost friction over $k_{xc}A/(\mu_0F_N)$")
-    one.set_title("small, any phase, both ways")
-    one.legend()
+    title = "small, any phase, both ways"
+    panel(one, r"$v_0/(\omega A)$", r"lost friction over $k_{xc}A/(\mu_0F_N)$", title, legend="best")
     chi, at = np.linspace(0, 1.2, 121), np.arange(0.15, 1.2, 0.25)
     for shape, (colour, marker) in LOOKS.items():
         law = [laws.held_under_shake(SHAPES[shape], 2e-5, 2e-5 * x) for x in chi]
         held.plot(chi, law, color=colour, lw=1)
         bands = [mdr.holding_band(shaken(shape, 0.0, x)).high / 0.5 for x in at]
         held.plot(at, bands, marker, ls="", color=colour, label=shape_label(shape))
-    held.set(xlabel=r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", title="at rest")
-    held.set_ylabel(r"load held at rest over $\mu_0F_N$")
-    held.legend()
-    return (
-        "Elastic contacts under a rigid pull. Left: friction of a paraboloid of constant depth that is shaken along its"
-        " way goes from a step (amplitude χ far below 1, in units of μ_0 κ u_z0) to the law of a rigid contact; at rest"
-        " it holds all loads of the vertical part. Middle: small oscillations of four shapes, normal and longitudinal"
-        " together, each in another phase, filled forward and hollow the other way: all lose ψ. Right: what is held at"
-        " rest, closed form (lines) and runs: nothing from χ = 1 on."
-    )
+    x, y = r"$\chi = \Delta u_x/(\mu_0\kappa u_{z0})$", r"load held at rest over $\mu_0F_N$"
+    panel(held, x, y, "at rest", legend="best")

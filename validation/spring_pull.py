@@ -21,11 +21,10 @@ from itertools import product
 import numpy as np
 
 import mdr
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, loss_label
-from validation.figures import figure
-from validation.report import Check, Checks, Claim
+from validation.figures import COLOURS, figure
+from validation.report import Check, Checks, Claim, told
 from validation.words import listed, ranged
 
 ALPHA = 0.1
@@ -72,7 +71,6 @@ def measure(s: float, T: float, damping_ratio: float = DAMPING) -> Point:
     case = punch(s, T, damping_ratio)
     found = mdr.measure_critical_velocity(case).v_c
     expected = mdr.critical_velocity(case) / case.unit_velocity
-    assert isinstance(case.pull, mdr.SpringPull)
     swing = abs(case.k_zc * (1 + 1j * T) * complex(case.pull.receptance(case.oscillation.omega)))
     body = swing / case.material.mindlin_ratio
     got = None if found is None else found / case.unit_velocity
@@ -91,29 +89,40 @@ def half_way(T: float) -> float:
 
 
 def claim(effort: str) -> Claim:
-    """Measure v_c over the sweep, at chosen undamped points, and the COF on the pole."""
+    """A flat punch under a spring and a mass has the v_c of Eqs. (2) and (15)
+
+    How: Measure v_c over the sweep, at chosen undamped points, and the COF on the pole.
+
+    Quote: Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where v_c
+    becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a plateau (which
+    is less than mu_0) at fairly low sliding velocities and does not change thereafter. — Section 1, Eq. (2); with a
+    Kelvin contact, Eq. (15)
+
+    Range: flat punch in contact throughout, α = {ALPHA:g}, k_x = k_x,c, mω²/k_x {frequencies}, ωτ = {times}; damper c_x
+    of {damping:g} % of critical, and none
+
+    Measured: The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e} {beside} pole and
+    zero. Undamped at the zero an elastic contact has v_c = 0: at any velocity friction is not reduced; a Kelvin contact
+    has ωτ times Eq. (1). Undamped on the pole no velocity is high enough, and the COF tends to the mean of its static
+    value and mu_0.
+
+    Verdict: holds
+
+    Sentence: For a contact of constant stiffness Eq. (15) gives v_c on both sides of its pole and of its zero. On the
+    pole the COF of an undamped body tends to the mean of static COF and μ_0, from below.
+    """
     materials = MATERIALS[effort]
     points = [measure(s, T) for T in materials for s in SWEEP[effort]]
     swings = {T: [on_the_pole(T, ratio) for ratio in PLATEAU] for T in materials}
     plateaus = {T: np.array([run.cof / run.mu_0 for run in runs]) for T, runs in swings.items()}
     worst = np.nanmax([abs(point.deviation) for point in points])
+    frequencies = f"= {listed(SWEEP[effort])}" if effort == "quick" else ranged(SWEEP[effort])
+    times = listed(materials)
+    damping = 100 * DAMPING
+    beside = "beside" if effort == "quick" else "through"
     return Claim(
-        name="spring_pull",
-        title="A flat punch under a spring and a mass has the v_c of Eqs. (2) and (15)",
-        quote="Another notable feature is the presence of two resonant frequencies, in particular ω = √(k_x/m) where"
-        " v_c becomes infinite. Numerical experiments show that in this case, the coefficient of friction reaches a"
-        " plateau (which is less than mu_0) at fairly low sliding velocities and does not change thereafter. — Section"
-        " 1, Eq. (2); with a Kelvin contact, Eq. (15)",
-        range=f"flat punch in contact throughout, α = {ALPHA:g}, k_x = k_x,c, mω²/k_x "
-        f"{f'= {listed(SWEEP[effort])}' if effort == 'quick' else ranged(SWEEP[effort])}, "
-        f"ωτ = {listed(materials)}; damper c_x of {100 * DAMPING:g} % of critical, and none",
-        measured=f"The measured v_c follows Eq. (15), with k_x + iωc_x in place of k_x, to {worst:.1e}"
-        f" {'beside' if effort == 'quick' else 'through'} pole and zero. Undamped at the zero an elastic contact has"
-        " v_c = 0: at any velocity friction is not reduced; a Kelvin contact has ωτ times Eq. (1). Undamped on the pole"
-        " no velocity is high enough, and the COF tends to the mean of its static value and mu_0.",
-        verdict="holds",
-        sentence="For a contact of constant stiffness Eq. (15) gives v_c on both sides of its pole and of its zero. On "
-        "the pole the COF of an undamped body tends to the mean of static COF and μ_0, from below.",
+        "spring_pull",
+        **told(claim, locals()),
         checks=(*_sweep_checks(points), *_undamped_checks(effort), *_pole_checks(plateaus, swings)),
         figures=(_sweep_figure(points, materials), _pole_figure(plateaus)),
     )
@@ -170,9 +179,13 @@ def _pole_checks(plateaus: dict[float, Array], swings: dict[float, list[mdr.Slid
 
 
 @figure("sweep", size=(7.2, 4.6))
-def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]) -> str:
-    """Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a dip at
-    the zero.
+def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]):
+    """Logarithmic plot of measured critical velocities on the curves of Eq. (15), with a peak at the pole and a dip
+    at the zero.
+
+    Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from runs
+    alone, curves are Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact swing in
+    step and v_c falls, for an elastic contact to nothing, for a viscoelastic one to ωτ times Eq. (1).
     """
     s = np.unique(np.r_[np.linspace(0.005, 6.5, 300), np.linspace(0.9, 1.1, 101), np.linspace(1.8, 2.2, 101)])
     for T, colour in zip(materials, COLOURS, strict=False):
@@ -190,16 +203,15 @@ def _sweep_figure(fig, ax, points: list[Point], materials: tuple[float, ...]) ->
     ax.plot([], [], color="0.3", label=f"Eq. (15), damper {100 * DAMPING:g} % of critical")
     ax.plot([], [], color="0.3", lw=0.8, ls="--", label="Eq. (15), undamped")
     ax.legend(loc="upper right", title="points: measured", alignment="left")
-    return (
-        "Critical velocity of a flat punch under a spring and a mass, over the frequency. Points are measured from runs"
-        " alone, curves are Eq. (15). At the pole the body itself swings and v_c grows; at the zero body and contact"
-        " swing in step and v_c falls, for an elastic contact to nothing, for a viscoelastic one to ωτ times Eq. (1)."
-    )
 
 
 @figure("pole", size=(6.8, 4.0))
-def _pole_figure(fig, ax, plateaus: dict[float, Array]) -> str:
-    """COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole."""
+def _pole_figure(fig, ax, plateaus: dict[float, Array]):
+    """COF over pulling velocity: plateaus below mu_0 on the pole, full friction above v_c off the pole.
+
+    An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between static COF
+    and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c.
+    """
     for (T, cof), colour in zip(plateaus.items(), COLOURS, strict=False):
         ax.axhline(half_way(T), color=colour, lw=0.9, ls="--", zorder=0)
         ax.plot(PLATEAU, cof, "o-", color=colour, ms=5, label=f"on the pole, {loss_label(T)}")
@@ -209,7 +221,3 @@ def _pole_figure(fig, ax, plateaus: dict[float, Array]) -> str:
     ax.axhline(1.0, color="0.75", lw=0.8, zorder=0)
     ax.set(xscale="log", xlabel=r"$v_0$ over Eq. (1)", ylabel=r"$\mu/\mu_0$", ylim=(None, 1.008))
     ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.02))
-    return (
-        "An undamped body driven at its own frequency: the COF rises towards a plateau (dashed: halfway between static"
-        " COF and mu_0) and does not pass it, up to 256 times Eq. (1). Off the pole (grey) it reaches mu_0 at v_c."
-    )

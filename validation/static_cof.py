@@ -12,7 +12,6 @@ Symbols: alpha = du_z/u_z0, T = omega tau.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -20,12 +19,11 @@ import mdr
 from mdr import laws
 from mdr.closed_forms import paper as theory
 from mdr.closed_forms.rigid_pull import Asymptote, small_velocity
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import contact, shape_label
-from validation.figures import figure
+from validation.figures import COLOURS, figure
 from validation.full_slip import full_slip
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 
 QUICK = (
     ("flat punch", 0.2, 0.0),
@@ -84,29 +82,37 @@ _EQUATIONS = (
 
 
 def claim(effort: str) -> Claim:
-    """Static limit in closed form, and runs at falling velocity that tend to it."""
+    """At vanishing velocity friction is μ_0 times the least normal force
+
+    How: Static limit in closed form, and runs at falling velocity that tend to it.
+
+    Quote: The static force of friction is equal to the minimal normal force during an oscillation cycle, multiplied
+    with the coefficient of friction, Eq. (7). … First, the velocity-dependences all start from the static value at
+    vanishing velocity. (Section 3)
+
+    Range: {n_contacts} contacts: {shapes}; ωτ from 0 to {most_T:g}, with contact kept, lost at the edge, and lost
+    altogether; rigid pull at v_0/v_c from 10^-1 to 10^{power}.
+
+    Measured: Every curve starts at mu_0 min F_N/⟨F_N⟩, with the normal force of the whole contact; for a punch that
+    keeps contact this is Eq. (7). How it starts depends on the material. An elastic contact leaves the static value in
+    proportion to v_0, flat or curved. A Kelvin contact whose core stays pressed leaves it like v_0^{{2/3}}, flat or
+    curved: its curve rises vertically from the static value, since a foot that slips only while the force is least has
+    too little time to creep back. A Kelvin contact that is lost altogether starts from zero and in proportion to v_0
+    again. Powers and factors are those derived from the motion of one spring, without a fit.
+
+    Verdict: holds
+
+    Sentence: Under a rigid pull friction starts from μ_0 times the least normal force; an elastic contact leaves it
+    like v_0, a Kelvin contact that stays pressed like v_0^{{2/3}}.
+    """
     v = {"quick": np.logspace(-1, -4, 4), "full": np.logspace(-1, -4, 7), "long": np.logspace(-1, -5, 13)}[effort]
     chosen = QUICK if effort == "quick" else FULL
     approaches = [approach(*which, v) for which in chosen]
+    n_contacts, shapes = len(approaches), ", ".join(dict.fromkeys(c[0] for c in chosen))
+    most_T, power = max(c[2] for c in chosen), round(float(np.log10(v[-1])))
     return Claim(
-        name="static_cof",
-        title="At vanishing velocity friction is μ_0 times the least normal force",
-        quote="The static force of friction is equal to the minimal normal force during an oscillation cycle,"
-        " multiplied with the coefficient of friction, Eq. (7). … First, the velocity-dependences all start from the"
-        " static value at vanishing velocity. (Section 3)",
-        range=f"{len(approaches)} contacts: {', '.join(dict.fromkeys(c[0] for c in chosen))}; ωτ from 0 to"
-        f" {max(c[2] for c in chosen):g}, with contact kept, lost at the edge, and lost altogether; rigid pull at"
-        f" v_0/v_c from 10^-1 to 10^{round(float(np.log10(v[-1])))}.",
-        measured="Every curve starts at mu_0 min F_N/⟨F_N⟩, with the normal force of the whole contact; for a punch"
-        " that keeps contact this is Eq. (7). How it starts depends on the material. An elastic contact leaves the"
-        " static value in proportion to v_0, flat or curved. A Kelvin contact whose core stays pressed leaves it like"
-        " v_0^{2/3}, flat or curved: its curve rises vertically from the static value, since a foot that slips only"
-        " while the force is least has too little time to creep back. A Kelvin contact that is lost altogether starts"
-        " from zero and in proportion to v_0 again. Powers and factors are those derived from the motion of one spring,"
-        " without a fit.",
-        verdict="holds",
-        sentence="Under a rigid pull friction starts from μ_0 times the least normal force; an elastic contact leaves"
-        " it like v_0, a Kelvin contact that stays pressed like v_0^{2/3}.",
+        "static_cof",
+        **told(claim, locals()),
         checks=(*_static_checks(), *(check for a in approaches for check in _approach_checks(a))),
         figures=(_figure(approaches),),
         equations=_EQUATIONS,
@@ -189,9 +195,15 @@ def _approach_checks(a: Approach) -> Checks:
 
 
 @figure("approach", size=(7.6, 4.4))
-def _figure(fig, ax, approaches: list[Approach]) -> str:
-    """Double logarithmic plot of COF less static COF over velocity with lines of slope one and two thirds."""
-    shown: Any = [a for a in approaches if a.name.split(",")[0] in ("flat punch", "paraboloid", "cone")][:7]
+def _figure(fig, ax, approaches: list[Approach]):
+    """Double logarithmic plot of COF less static COF over velocity with lines of slope one and two thirds.
+
+    How friction leaves its static value: runs (symbols) and the leading laws, none of them fitted (lines). Elastic
+    contacts, and Kelvin contacts that are lost, rise like v_0; Kelvin contacts with a core that stays pressed rise like
+    v_0^{{2/3}}: at 10^-4 v_c the Kelvin punch is seventeen times further above its static value than the elastic punch
+    of the same amplitude.
+    """
+    shown = [a for a in approaches if a.name.split(",")[0] in ("flat punch", "paraboloid", "cone")][:7]
     for a, colour, marker in zip(shown, COLOURS, "osD^vPX", strict=False):
         v = np.geomspace(a.v[-1], a.v[0])
         ax.loglog(v, a.factor * v**a.power, color=colour, lw=1, ls="-" if a.power == 1 else "--")
@@ -202,9 +214,3 @@ def _figure(fig, ax, approaches: list[Approach]) -> str:
     ax.plot([], [], color="0.3", lw=1, ls="--", label="law of power 2/3")
     ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"$(\mu-\mu_{\mathrm{static}})/\mu_0$")
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return (
-        "How friction leaves its static value: runs (symbols) and the leading laws, none of them fitted"
-        " (lines). Elastic contacts, and Kelvin contacts that are lost, rise like v_0; Kelvin contacts with a"
-        " core that stays pressed rise like v_0^{2/3}: at 10^-4 v_c the Kelvin punch is seventeen times"
-        " further above its static value than the elastic punch of the same amplitude."
-    )

@@ -11,11 +11,10 @@ from functools import cache
 import mdr
 from mdr.closed_forms.coupling import radial_rub
 from mdr.half_space.friction import Settings, in_three_dimensions
-from mdr.plots import COLOURS
 from validation.cases import contact
-from validation.figures import figure
+from validation.figures import COLOURS, figure
 from validation.half_space.springs import of_springs
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import listed, number, span
 
 ALPHA, FRICTION = 0.3, 0.3
@@ -71,7 +70,26 @@ def errors(settings: Settings) -> dict[str, float]:
 
 
 def claim(effort: str) -> Claim:
-    """Run with and without slip across the pull."""
+    """Slip across the pull does not change friction noticeably
+
+    How: Run with and without slip across the pull.
+
+    Range: paraboloid, ν = {nus}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA}, v_0/v_c = {listed_velocities};
+    {settings.cells}² cells, {settings.steps} steps a period; at ν = 0.3 and {CHECKED:g} v_c half the steps and half the
+    cells change the losses by up to {error[coupled]:.0e}, what slip across does with coupling by
+    {error[by_coupling]:.0e} and without by {error[by_itself]:.0e}
+
+    Measured: Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0: what
+    Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts. At
+    {below_v_c} v_c up to {most_percent:.0f} % of it come from slip across the pull; the rest would be there without, as
+    the leading and the trailing half are rubbed along the pull in opposite senses. Above the end of stick all of it is
+    slip across the pull, which turns friction aside: with slip along the pull only, friction there is full.
+
+    Verdict: holds if β = 0
+
+    Sentence: Without coupling slip across changes the COF of a paraboloid by {by_itself} of μ_0 at most; with it, it
+    makes a part of the loss below v_c and all of it above the end of stick.
+    """
     quick = effort == "quick"
     settings = replace(SETTINGS, cells=15, steps=24) if quick else SETTINGS
     velocities = (0.6, 1.6) if quick else VELOCITIES
@@ -80,23 +98,13 @@ def claim(effort: str) -> Claim:
     some = [one for one in found if one.nu < 0.5 and 0.3 < one.v < 0.9]
     below = [one.by_coupling / one.coupled for one in some]
     error = errors(settings)
+    nus, listed_velocities = listed(sorted({one.nu for one in found})), listed(velocities)
+    below_v_c = span([one.v for one in some])
+    most_percent = 100 * max(below)
+    by_itself = number(itself, 1)
     return Claim(
-        name="transverse_slip",
-        title="Slip across the pull does not change friction noticeably",
-        quote="",
-        range=f"paraboloid, ν = {listed(sorted({one.nu for one in found}))}, μ_0 = {FRICTION}, Δu_z/u_z0 = {ALPHA},"
-        f" v_0/v_c = {listed(velocities)}; {settings.cells}² cells, {settings.steps} steps a period; at ν = 0.3 and"
-        f" {CHECKED:g} v_c half the steps and half the cells change the losses by up to {error['coupled']:.0e}, what"
-        f" slip across does with coupling by {error['by_coupling']:.0e} and without by {error['by_itself']:.0e}",
-        measured=f"Without coupling, to forbid slip across the pull changes the COF by at most {itself:.0e} of μ_0:"
-        " what Cattaneo and Mindlin leave out does no harm. With coupling, the loss against the springs has two parts."
-        f" At {span([one.v for one in some])} v_c up to {100 * max(below):.0f} % of it come from slip across the pull;"
-        " the rest would be there without, as the leading and the trailing half are rubbed along the pull in opposite"
-        " senses. Above the end of stick all of it is slip across the pull, which turns friction aside: with slip along"
-        " the pull only, friction there is full.",
-        verdict="holds if β = 0",
-        sentence=f"Without coupling slip across changes the COF of a paraboloid by {number(itself, 1)} of μ_0 at most;"
-        " with it, it makes a part of the loss below v_c and all of it above the end of stick.",
+        "transverse_slip",
+        **told(claim, locals()),
         checks=_checks(found),
         figures=(_figure(found),),
     )
@@ -116,8 +124,13 @@ def _checks(found: list[Losses]) -> Checks:
 
 
 @figure("loss", size=(6.4, 4.0))
-def _figure(fig, ax, found: list[Losses]) -> str:
-    """Curves of the loss of friction against velocity, full above dashed, dotted at zero."""
+def _figure(fig, ax, found: list[Losses]):
+    """Curves of the loss of friction against velocity, full above dashed, dotted at zero.
+
+    What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull only, which
+    stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by radial slip. Dotted,
+    on the axis: without coupling, where transverse slip alone does nothing.
+    """
     few = len({one.v for one in found}) < 3  # no line through two points
     for nu, colour in zip(sorted({one.nu for one in found if one.nu < 0.5}), COLOURS, strict=False):
         own = [one for one in found if one.nu == nu]
@@ -131,14 +144,8 @@ def _figure(fig, ax, found: list[Losses]) -> str:
             ax.plot(v, [getattr(one, of) for one in own], color=colour, label=label, **look)
     ax.set(xlabel="$v_0$ over Eq. (1)", ylabel=r"(springs $-$ 3D)/$\mu_0$")
     ax.legend()
-    if few:
-        return (
-            "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three"
-            " dimensions. Squares: with tractions and slip along the pull only, less below and nothing above. Crosses:"
-            " without coupling."
-        )
-    return (
-        "What springs are too high by. Full: three dimensions. Dashed: with tractions and slip along the pull"
-        " only, which stays below and ends with stick; the tail above about (1 + λ) v_c is friction turned aside by"
-        " radial slip. Dotted, on the axis: without coupling, where transverse slip alone does nothing."
+    return few and (
+        "What springs are too high by, at one velocity below v_c and one above the end of stick. Dots: three"
+        " dimensions. Squares: with tractions and slip along the pull only, less below and nothing above. Crosses:"
+        " without coupling."
     )

@@ -18,7 +18,7 @@ from validation.cases import LOOKS, SHAPES, loss, shape_label
 from validation.figures import figure
 from validation.half_space import tables
 from validation.half_space.tables import Point, Row
-from validation.report import Check, Checks, Claim
+from validation.report import Check, Checks, Claim, told
 from validation.words import number
 
 KEPT, LOST = 0.3, 1.5  # du_z/u_z0
@@ -30,7 +30,27 @@ FINER = replace(SETTINGS, cells=96)  # where contact is lost, and small for a pa
 
 
 def claim(effort: str) -> Claim:
-    """Read the table, and compute some of it again."""
+    """Without coupling springs give the friction of the three-dimensional contact
+
+    How: Read the table, and compute some of it again.
+
+    Quote: According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be
+    equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)
+
+    Range: {n_rows} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1, contact kept
+    (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {slowest:g} to {fastest:g}; {SETTINGS.cells}² cells where
+    contact is kept, {FINER.cells}² where it is lost, {SETTINGS.steps} steps a period
+    (validation/half_space/tables/uncoupled.csv)
+
+    Measured: The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in the
+    same steps; half the steps and half the cells change that by at most {step:.0e} and {grid:.0e}. So independent
+    springs do what neighbours that feel each other do, cell by cell with stick, slip and loss of contact.
+
+    Verdict: holds
+
+    Sentence: Where pressure and friction do not act on each other, the springs have the friction of the half-space, to
+    {worst_of_all} of μ_0.
+    """
     if effort == "long":
         kept = tables.compute(_columns(SHAPES, KEPT, VELOCITIES), SETTINGS)
         lost = tables.compute(_columns(SHAPES, LOST, VELOCITIES), FINER)
@@ -43,22 +63,12 @@ def claim(effort: str) -> Claim:
         again = tables.compute(_columns(SHAPES, KEPT, VELOCITIES[1:2]), SETTINGS)
         again += tables.compute(_columns(("cone",), LOST, VELOCITIES[1:2])[:1], FINER)
     worst = max(abs(row.loss) for row in rows)
+    n_rows, slowest, fastest = len(rows), min(VELOCITIES), max(VELOCITIES)
+    step, grid = max(row.step for row in rows), max(row.grid for row in rows)
+    worst_of_all = number(worst, 1)
     return Claim(
-        name="uncoupled",
-        title="Without coupling springs give the friction of the three-dimensional contact",
-        quote="According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
-        " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)",
-        range=f"{len(rows)} contacts in three dimensions, ν = 0 and no coupling: four shapes, elastic and ωτ = 1,"
-        f" contact kept (Δu_z/u_z0 = {KEPT:g}) and lost ({LOST:g}), v_0/v_c from {min(VELOCITIES):g} to"
-        f" {max(VELOCITIES):g}; {SETTINGS.cells}² cells where contact is kept, {FINER.cells}² where it is lost,"
-        f" {SETTINGS.steps} steps a period (validation/half_space/tables/uncoupled.csv)",
-        measured=f"The COF in three dimensions differs from that of the springs by at most {worst:.2e} of μ_0, both in"
-        f" the same steps; half the steps and half the cells change that by at most {max(row.step for row in rows):.0e}"
-        f" and {max(row.grid for row in rows):.0e}. So independent springs do what neighbours that feel each other do,"
-        " cell by cell with stick, slip and loss of contact.",
-        verdict="holds",
-        sentence="Where pressure and friction do not act on each other, the springs have the friction of the"
-        f" half-space, to {number(worst, 1)} of μ_0.",
+        "uncoupled",
+        **told(claim, locals()),
         checks=(*_table_checks(rows), *_again_checks(again, rows)),
         figures=(_figure(rows),),
     )
@@ -85,8 +95,12 @@ def _again_checks(again: list[Row], rows: list[Row]) -> Checks:
 
 
 @figure("cof", 1, 4, size=(10.4, 3.4), sharey=True)
-def _figure(fig, panels, rows: list[Row]) -> str:
-    """Four panels of friction against velocity; marks of four shapes lie on their lines."""
+def _figure(fig, panels, rows: list[Row]):
+    """Four panels of friction against velocity; marks of four shapes lie on their lines.
+
+    Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no difference can be
+    seen, with contact kept and lost.
+    """
     for ax, (alpha, T) in zip(panels, product((KEPT, LOST), TIMES), strict=True):
         for shape, (colour, marker) in LOOKS.items():
             own = [r for r in rows if (r.point.shape, r.point.alpha, r.point.T) == (shape, alpha, T)]
@@ -96,7 +110,3 @@ def _figure(fig, panels, rows: list[Row]) -> str:
         ax.set(title=f"{loss(T)}, contact {'kept' if alpha == KEPT else 'lost'}", xlabel="$v_0/v_c$", xlim=(0, 0.9))
     panels[0].set_ylabel(r"$\mu/\mu_0$")
     panels[0].legend()
-    return (
-        "Friction in three dimensions (marks) on that of independent springs in the same steps (lines): no"
-        " difference can be seen, with contact kept and lost."
-    )

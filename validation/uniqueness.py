@@ -47,12 +47,11 @@ from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.search import search_from_full_slip
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.waiting import Waiting, way_from_rest
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
-from validation.figures import figure
-from validation.report import Check, Checks, Claim, Equation
+from validation.figures import COLOURS, figure
+from validation.report import Check, Checks, Claim, Equation, told
 from validation.uniqueness_in_the_plane import checks as checks_in_the_plane
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
@@ -238,7 +237,33 @@ _EQUATION = Equation(
 
 
 def claim(effort: str) -> Claim:
-    """Follow motions of random systems from several starts, and friction over velocity."""
+    """One coefficient of friction for one velocity, and never less at a higher one
+
+    How: Follow motions of random systems from several starts, and friction over velocity.
+
+    Quote: Second, the coefficient of friction increases monotonically (again, barring exceptional system-dynamical
+    circumstances) until it reaches the microscopic value at some critical velocity. (Section 3)
+
+    Range: {n_systems} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4, one in
+    five within 1e-2 of 1, 2 or 3, k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from {n_starts}
+    states each: full slip, rest and {n_random} random ones; {n_curves} of them over {n_velocities} velocities, and
+    {n_rigid} rigid pulls in closed form.
+
+    Measured: The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this alone it
+    follows that two motions of one contact never move apart, that the mean friction at a higher velocity is never less,
+    and that the COF is unique (of an undamped elastic body: except where the curve jumps): no hysteresis, no coexisting
+    states, for any shape, amplitude, relaxation time and body, on a resonance too. Of {n_runs} runs {n_settled}
+    settled, and those of one system agree to {apart:.1e}, each pair within its own spreads{others}. The motion is not
+    unique: in full slip an undamped body keeps its free oscillation for ever, with the same friction. Sweeping the
+    velocity up and down with {SHORT} periods at each step shows a loop of {loop:.2f} μ_0, made of transients that no
+    run calls settled; waiting closes it to {closed:.1e}. Shaken across, where friction is a vector, all of this holds
+    but for the force to the side, which may rise and fall.
+
+    Verdict: holds
+
+    Sentence: Under a given normal motion, with constant μ_0, one velocity has one COF (except where the curve of an
+    undamped elastic body jumps), which never falls with velocity; so there is one v_c.
+    """
     found = [ends(system) for system in progress(drawn(SYSTEMS[effort]), "uniqueness")]
     curves = _curves(effort)
     n_runs, n_settled = sum(len(e.settlings) for e in found), sum(len(e.settled) for e in found)
@@ -246,29 +271,13 @@ def claim(effort: str) -> Claim:
     others = f"; the rest, {rest} of the undamped systems, still changed, said so, and is not compared" if rest else ""
     short, waited = swept(SHORT), swept(None)
     loop = float(np.abs(short[0][0] - short[0][1]).max())
+    n_systems, n_starts, n_random = len(found), len(STARTS), STARTS.count("random")
+    n_curves, n_velocities, n_rigid = len(curves), len(FASTER), RIGID[effort]
+    apart = max(np.ptp([s.mean for s in e.settled] or [0.0]) for e in found)
+    closed = np.abs(waited[0][0] - waited[0][1]).max()
     return Claim(
-        name="uniqueness",
-        title="One coefficient of friction for one velocity, and never less at a higher one",
-        quote="Second, the coefficient of friction increases monotonically (again, barring exceptional system-dynamical"
-        " circumstances) until it reaches the microscopic value at some critical velocity. (Section 3)",
-        range=f"{len(found)} random systems (four shapes, α = 0.05 … 1.5, elastic and ωτ = 0.1 … 3, ω_0/ω = 0.4 … 2.4,"
-        " one in five within 1e-2 of 1, 2 or 3, k_x/k_x,c = 0.3 … 3, damping ratio 0 to 0.1, v_0/v_c = 0.1 … 1.2) from"
-        f" {len(STARTS)} states each: full slip, rest and {STARTS.count('random')} random ones; {len(curves)} of them"
-        f" over {len(FASTER)} velocities, and {RIGID[effort]} rigid pulls in closed form.",
-        measured="The exceptions do not exist. Under a given normal motion Coulomb’s law is monotone, and from this"
-        " alone it follows that two motions of one contact never move apart, that the mean friction at a higher"
-        " velocity is never less, and that the COF is unique (of an undamped elastic body: except where the curve"
-        " jumps): no hysteresis, no coexisting states, for any shape, amplitude, relaxation time and body, on a"
-        f" resonance too. Of {n_runs} runs {n_settled} settled, and those of one system agree to"
-        f" {max(np.ptp([s.mean for s in e.settled] or [0.0]) for e in found):.1e}, each pair within its own"
-        f" spreads{others}. The motion is not unique: in full slip an undamped body keeps its free oscillation for"
-        f" ever, with the same friction. Sweeping the velocity up and down with {SHORT} periods at each step shows a"
-        f" loop of {loop:.2f} μ_0, made of transients that no run calls settled; waiting closes it to"
-        f" {np.abs(waited[0][0] - waited[0][1]).max():.1e}. Shaken across, where friction is a vector, all of this"
-        " holds but for the force to the side, which may rise and fall.",
-        verdict="holds",
-        sentence="Under a given normal motion, with constant μ_0, one velocity has one COF (except where the curve"
-        " of an undamped elastic body jumps), which never falls with velocity; so there is one v_c.",
+        "uniqueness",
+        **told(claim, locals()),
         checks=(
             *_distance_checks(found),
             *_end_checks(found),
@@ -353,9 +362,13 @@ def _sweep_checks() -> Checks:
 
 
 @figure("distance", size=(7.4, 4.4))
-def _distance_figure(fig, ax) -> str:
-    """Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an undamped
-    body in full slip.
+def _distance_figure(fig, ax):
+    """Distance of two motions over forty periods on a logarithmic axis: falling in four cases, constant for an
+    undamped body in full slip.
+
+    Two motions of one contact from random states never move apart. Below v_c stick takes part of their difference in
+    every period, with or without a damper; above v_c they slip with the same forces, only a damper sees them differ,
+    and without one the free oscillation of the body stays as it is.
     """
     shown = (
         ("damper 1 %, 0.5 $v_c$", System("paraboloid", 0.5, 0.0, 1.7, 1.5, 0.01, 0.5)),
@@ -369,16 +382,16 @@ def _distance_figure(fig, ax) -> str:
         ax.semilogy(np.maximum(D / D[0], 1e-18), "o-", ms=3, lw=1.1, color=colour, label=label)
     ax.set(xlabel="periods", ylabel="distance $D$ of two motions, over its start", ylim=(1e-10, 10))
     ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return (
-        "Two motions of one contact from random states never move apart. Below v_c stick takes part of their "
-        "difference in every period, with or without a damper; above v_c they slip with the same forces, only a "
-        "damper sees them differ, and without one the free oscillation of the body stays as it is."
-    )
 
 
 @figure("sweep", size=(6.8, 4.2))
-def _sweep_figure(fig, ax) -> str:
-    """Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones."""
+def _sweep_figure(fig, ax):
+    """Coefficient of friction over velocity: two separate branches for short runs, one curve for settled ones.
+
+    A loop that is none: velocity swept up and down on a lightly damped body (paraboloid, elastic, α = 0.5, ω_0 = 0.97
+    ω, damper 1 %), each run going on from the state of the last. With {short} periods at each velocity (triangles)
+    friction seems to depend on the direction; when each run is awaited (circles and dots) the two ways coincide.
+    """
     short, waited, v = swept(SHORT)[0], swept(None)[0], np.array(SWEEP)
     ax.plot(v, short[0], ">-", color=COLOURS[1], lw=1, label=f"up, {SHORT} periods each")
     ax.plot(v, short[1], "<-", color=COLOURS[2], lw=1, label=f"down, {SHORT} periods each")
@@ -387,9 +400,4 @@ def _sweep_figure(fig, ax) -> str:
     ax.axvline(1.0, color="0.5", lw=0.9, ls=":")
     ax.set(xlabel="pulling velocity $v_0/v_c$", ylabel=r"coefficient of friction $\mu/\mu_0$")
     ax.legend(loc="lower right")
-    return (
-        "A loop that is none: velocity swept up and down on a lightly damped body (paraboloid, elastic, α = 0.5, ω_0 = "
-        f"0.97 ω, damper 1 %), each run going on from the state of the last. With {SHORT} periods at each velocity "
-        "(triangles) friction seems to depend on the direction; when each run is awaited (circles and dots) the two "
-        "ways coincide."
-    )
+    return {"short": SHORT}

@@ -10,8 +10,6 @@ is alone, and keeps its part of the distance in the end. So from its first slip 
 the mean forces; those that never slip, which is so only at v_0 = 0, may keep any.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache

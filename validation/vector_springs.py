@@ -19,8 +19,6 @@ The tables (validation/half_space/tables/across_annuli.csv, across_cells.csv) ar
 `python -m validation --long --only vector_springs`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import product
@@ -31,14 +29,13 @@ import mdr
 from mdr import laws
 from mdr.closed_forms.laws.across import FADES, STIFFER
 from mdr.friction.surface_fields import from_line_load
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, LOOKS, RADIUS, SHAPES, shape_label
-from validation.figures import figure
+from validation.figures import COLOURS, figure, panel
 from validation.half_space import kept
 from validation.half_space.across import Point, Row, of_springs, on_annuli, on_cells
 from validation.half_space.annuli import annuli, friction, pressure
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 
 CURVED = ("paraboloid", "cone", "r^4")
 SIZES, SLOWER = (0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 4.0), (1.6, 0.8, 0.4, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005)
@@ -84,7 +81,37 @@ def by_coupling(row: Row) -> float:
 
 
 def claim(effort: str) -> Claim:
-    """Read the tables, compute some of them again, and try the laws on them."""
+    """Springs whose friction is a vector are not quite the half-space: slow, they hold too much
+
+    How: Read the tables, compute some of them again, and try the laws on them.
+
+    Quote: According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be
+    equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)
+
+    Range: {n_exact} contacts of ν = 0 without coupling: paraboloid, cone, r^4, flat punch; η = Δu_y/(μ_0 κ u_z0) from
+    {SIZES[0]:g} to {greatest_eta:g}, v = v_0/(μ_0 κ ω u_z0) from {slowest:g} to {SLOWER[0]:g}; errors up to
+    {worst_exact:.0e}, {usual_exact:.0e} in the median. {n_cells} more on cells, ν from 0 to 0.5, with coupling and
+    without, errors up to {worst_cells:.0e}. Elastic, at a constant depth but for the force to the side
+    (validation/half_space/tables/across_annuli.csv, across_cells.csv).
+
+    Measured: A flat punch is one spring, and has its friction exactly. Under curved faces springs are right for fast
+    slides; in between they are off by up to {between:.2f} of μ_0, and slow they hold too much: {worst.off:.2f} of μ_0
+    too much at v = {worst.point.v:g} under a {worst.point.shape}. At rest, shaken by half of what its deepest spring
+    can follow, a paraboloid holds {held_by_springs:.3f} of μ_0 F_N by springs, {held_by_points:.3f} by Coulomb's law in
+    every point, and {by_eq_8:.3f} by Eq. (8) of the author's later paper (Front. Mech. Eng. 6:69), which is said to be
+    independent of the contact's geometry: it holds for a flat face alone. The reason is on the surface: where springs
+    of different directions follow one another, the traction that belongs to them comes to {beyond:.2f} μ_0 p. The law
+    of the difference, fitted to the paraboloid, leaves {far:.3f} of μ_0 at most on all three ({rms:.3f} in the mean
+    square). ν does not matter without coupling. With it the contact is stiffer along its surface by about 0.36 β^2/κ
+    (less under a flat punch), which tells what coupling takes, up to {most_taken:.3f} of μ_0, to {off_taken:.3f}.
+    Pushed to the side by a normal oscillation ({ALPHA:g} of the depth), springs have the force across to {off_side:.3f}
+    of μ_0 from v = 0.1 on.
+
+    Verdict: holds if the contact is flat, or the slide not slow
+
+    Sentence: Shaken across, springs are exact under a flat punch and good for fast slides; at rest a paraboloid holds
+    up to 0.13 of μ_0 less, as Coulomb's law does not hold in every point of the surface.
+    """
     if effort == "long":
         on = {"across_annuli": (on_annuli, ANNULI, STEPS), "across_cells": (on_cells, CELLS, STEPS)}
         for name, (judge, size, steps) in on.items():
@@ -96,45 +123,26 @@ def claim(effort: str) -> Claim:
     left = {shape: np.array([row.off - law(row.point) for row in off[shape]]) for shape in CURVED}
     far = max(float(np.abs(one).max()) for one in left.values())
     rms = max(float(np.sqrt(np.mean(one**2))) for one in left.values())
-    beyond = max(_surface_excess("paraboloid", *one, effort == "quick") for one in MIXED)
-    coupled = _coupled(cells, exact, effort == "quick")
+    quick = effort == "quick"
+    beyond = max(_surface_excess("paraboloid", *one, quick) for one in MIXED)
+    coupled = _coupled(cells, exact, quick)
+    of_annuli = (*_rest_checks(quick), *_table_checks(off, left), *_again_checks(exact, effort))
+    of_cells = (*_cell_checks(cells, exact, coupled), *_side_checks(cells))
+    n_exact, greatest_eta, slowest = len(exact), SIZES[-1], SLOWER[-1]
+    worst_exact = max(row.error for row in exact)
+    usual_exact = np.median([row.error for row in exact])
+    n_cells = len(cells)
+    worst_cells = max(row.error for row in cells)
+    between = _between(exact)
+    held_by_springs = _held("paraboloid", 0.5, False)
+    held_by_points = _held("paraboloid", 0.5, True)
+    by_eq_8, most_taken = _eq_8("paraboloid"), max(found for _, found, _ in coupled)
+    off_taken = max(abs(found - said) for _, found, said in coupled)
+    off_side = _to_the_side(cells)
     return Claim(
-        name="vector_springs",
-        title="Springs whose friction is a vector are not quite the half-space: slow, they hold too much",
-        quote="According to the Method of Dimensionality Reduction (MDR), any rotationally symmetric contact can be"
-        " equivalently represented by a model consisting of a series of independent springs. (Section 2.2.2)",
-        range=f"{len(exact)} contacts of ν = 0 without coupling: paraboloid, cone, r^4, flat punch; η = Δu_y/(μ_0 κ"
-        f" u_z0) from {SIZES[0]:g} to {SIZES[-1]:g}, v = v_0/(μ_0 κ ω u_z0) from {SLOWER[-1]:g} to {SLOWER[0]:g};"
-        f" errors up to {max(row.error for row in exact):.0e}, {np.median([row.error for row in exact]):.0e} in the"
-        f" median. {len(cells)} more on cells, ν from 0 to 0.5, with coupling and without, errors up to"
-        f" {max(row.error for row in cells):.0e}. Elastic, at a constant depth but for the force to the side"
-        " (validation/half_space/tables/across_annuli.csv, across_cells.csv).",
-        measured="A flat punch is one spring, and has its friction exactly. Under curved faces springs are right for"
-        f" fast slides; in between they are off by up to {_between(exact):.2f} of μ_0, and slow they hold too much:"
-        f" {worst.off:.2f} of μ_0 too much at v = {worst.point.v:g} under a {worst.point.shape}. At rest, shaken by"
-        f" half of what its deepest spring can follow, a paraboloid holds {_held('paraboloid', 0.5, False):.3f} of μ_0"
-        f" F_N by springs, {_held('paraboloid', 0.5, True):.3f} by Coulomb's law in every point, and"
-        f" {_eq_8('paraboloid'):.3f} by Eq. (8) of the author's later paper (Front. Mech. Eng. 6:69), which is said to"
-        " be independent of the contact's geometry: it holds for a flat face alone. The reason is on the surface: where"
-        " springs of different directions follow one another, the traction that belongs to them comes to"
-        f" {beyond:.2f} μ_0 p. The law of the difference, fitted to the paraboloid, leaves {far:.3f} of μ_0 at most on"
-        f" all three ({rms:.3f} in the mean square). ν does not matter without coupling. With it the contact is stiffer"
-        " along its surface by about 0.36 β^2/κ (less under a flat punch), which tells what coupling takes, up to"
-        f" {max(found for _, found, _ in coupled):.3f} of μ_0, to"
-        f" {max(abs(found - said) for _, found, said in coupled):.3f}. Pushed to the side by a normal"
-        f" oscillation ({ALPHA:g} of the depth), springs have the force across to {_to_the_side(cells):.3f} of μ_0"
-        " from v = 0.1 on.",
-        verdict="holds if the contact is flat, or the slide not slow",
-        sentence="Shaken across, springs are exact under a flat punch and good for fast slides; at rest a paraboloid"
-        " holds up to 0.13 of μ_0 less, as Coulomb's law does not hold in every point of the surface.",
-        checks=(
-            *_rest_checks(effort == "quick"),
-            *_table_checks(off, left),
-            *_again_checks(exact, effort),
-            *_cell_checks(cells, exact, coupled),
-            *_side_checks(cells),
-            *_surface_checks(beyond),
-        ),
+        "vector_springs",
+        **told(claim, locals()),
+        checks=(*of_annuli, *of_cells, *_surface_checks(beyond)),
         figures=(_figure(off), _law_figure(off, coupled), _surface_figure()),
         equations=(
             Equation(
@@ -199,9 +207,8 @@ def _table_checks(off: dict[str, list[Row]], left: dict[str, Array]) -> Checks:
     yield Check("flat punch: greatest difference over μ_0", flat, 0.0, 0.003, why)
     for shape in CURVED:
         fast = max(abs(row.off) - row.error for row in off[shape] if row.point.v >= 1.6 and row.point.eta <= 1)
-        yield Check.at_most(
-            f"{shape}, v = 1.6, η ≤ 1: difference beyond its errors", fast, 5e-4, "of fourth order in 1/v"
-        )
+        name = f"{shape}, v = 1.6, η ≤ 1: difference beyond its errors"
+        yield Check.at_most(name, fast, 5e-4, "of fourth order in 1/v")
         slow = max(row.off for row in off[shape])
         yield Check.at_least(f"{shape}: greatest difference over μ_0", slow, 0.05, "half of that at rest and less")
         worst = float(left[shape][np.abs(left[shape]).argmax()])
@@ -213,14 +220,12 @@ def _table_checks(off: dict[str, list[Row]], left: dict[str, Array]) -> Checks:
     best = min(np.geomspace(0.006, 0.024, 61), key=lambda pace: sum((row.off - _with(pace, row)) ** 2 for row in own))
     yield Check("constant of the law by least squares", float(best), FADES, 0.05 * FADES, "as the library has it")
     for eta in (0.3, 0.5, 0.7):
-        gap = _eq_8("flat punch", eta) - _held("flat punch", eta, True)
-        yield Check(
-            f"Eq. (8) of the later paper less the closed form: flat punch, η = {eta:g}", gap, 0.0, 1e-9, "one spring"
-        )
+        gap, name = _eq_8("flat punch", eta) - _held("flat punch", eta, True), "Eq. (8) of the later paper less"
+        yield Check(f"{name} the closed form: flat punch, η = {eta:g}", gap, 0.0, 1e-9, "one spring")
         for shape in CURVED:
             gap = _eq_8(shape, eta) - _held(shape, eta, False)
-            name = f"Eq. (8) of the later paper less what springs hold: {shape}, η = {eta:g}"
-            yield Check.at_least(name, gap, 0.015, "springs at the edge hold nothing")
+            where = f"{shape}, η = {eta:g}"
+            yield Check.at_least(f"{name} what springs hold: {where}", gap, 0.015, "springs at the edge hold nothing")
 
 
 def _with(pace: float, row: Row) -> float:
@@ -236,43 +241,30 @@ def _again_checks(exact: Sequence[Row], effort: str) -> Checks:
     points = [Point("paraboloid", 0.0, MU_0, False, 1.0, 0.0, 0.0, v) for v in ((0.4,) if quick else (1.6, 0.4, 0.1))]
     again = on_annuli(points, 16 if quick else 24, 24)
     shares = [abs(row.off - known[row.point].off) / (row.error + known[row.point].error) for row in again]
-    yield Check.at_most(
-        f"{len(again)} of the annuli again: greatest change over the errors", max(shares), 1, "its errors"
-    )
+    name = f"{len(again)} of the annuli again: greatest change over the errors"
+    yield Check.at_most(name, max(shares), 1, "its errors")
 
 
 def _cell_checks(cells: Sequence[Row], exact: Sequence[Row], coupled: Sequence[tuple[Row, float, float]]) -> Checks:
-    known = {(row.point.shape, row.point.eta, row.point.v): row for row in exact}
+    known = {row.point.place: row for row in exact}
     for nu in (0.3, 0.5):
-        own = [row for row in cells if not row.point.coupled and not row.point.alpha and row.point.nu == nu]
-        pairs = [(row, known.get((row.point.shape, row.point.eta, row.point.v))) for row in own]
-        shares = [abs(a.off - b.off) / (a.error + b.error) for a, b in pairs if b]
+        own = [row for row in cells if row.point.plain and row.point.nu == nu and row.point.place in known]
+        shares = [abs(row.off - known[row.point.place].off) / (row.error + known[row.point.place].error) for row in own]
         name = f"cells of ν = {nu:g} without coupling beside annuli of ν = 0, over their errors, worst of {len(shares)}"
         yield Check.at_most(name, max(shares), 1.0, "ν moves the surface across by its square")
     own = [(found, said) for row, found, said in coupled if _is_fitted(row.point)]
     best = sum(found * said for found, said in own) / sum(said**2 for _, said in own) * STIFFER
-    yield Check(
-        "share of β^2/κ by which coupling stiffens, by least squares", best, STIFFER, 0.03, "as the library has it"
-    )
-    for what, some in (
-        ("ν = 0.3, μ_0 = 0.3, fitted", _is_fitted),
-        ("μ_0 = 0.1 and 0.6", lambda p: p.shape == "paraboloid" and p.mu_0 != MU_0),
-        ("ν = 0", lambda p: p.nu == 0),
-        ("flat punch", lambda p: p.shape == "flat punch"),
-        ("cone and r^4", lambda p: p.shape in ("cone", "r^4")),
-    ):
-        own_pairs = [(row, found, said) for row, found, said in coupled if some(row.point)]
-        if own_pairs:
-            worst = max((found - said for _, found, said in own_pairs), key=abs)
-            name = f"what coupling takes over μ_0, less the law: {what}, worst of {len(own_pairs)}"
-            yield Check(name, worst, 0.0, ALLOWED_COUPLED, "errors of cells, and the fit")
-            left = float(
-                np.sqrt(np.mean([(a - b) ** 2 for _, a, b in own_pairs]) / np.mean([a**2 for _, a, _ in own_pairs]))
-            )
+    name = "share of β^2/κ by which coupling stiffens, by least squares"
+    yield Check(name, best, STIFFER, 0.03, "as the library has it")
+    for what, some in KINDS.items():
+        found, said = np.array([one[1:] for one in coupled if some(one[0].point)]).reshape(-1, 2).T
+        if found.size:
+            name = f"what coupling takes over μ_0, less the law: {what}, worst of {found.size}"
+            yield Check(name, max(found - said, key=abs), 0.0, ALLOWED_COUPLED, "errors of cells, and the fit")
+            left = np.sqrt(np.mean((found - said) ** 2) / np.mean(found**2))
             name = f"what the law leaves of it, in the mean square: {what}"
             yield Check.at_most(name, left, 0.85 if what == "flat punch" else 0.5, "nothing at all would leave 1")
-            most = max(found for _, found, _ in own_pairs)
-            yield Check.at_least(f"the greatest of it: {what}", most, 0.002, "seen above its errors")
+            yield Check.at_least(f"the greatest of it: {what}", max(found), 0.002, "seen above its errors")
 
 
 def _side_checks(cells: Sequence[Row]) -> Checks:
@@ -280,17 +272,25 @@ def _side_checks(cells: Sequence[Row]) -> Checks:
     for coupled in (False, True):
         own = [row for row in cells if row.point.alpha and row.point.coupled == coupled]
         what = f"Δu_z/u_z0 = {ALPHA:g}, {'with' if coupled else 'without'} coupling, of {len(own)}"
-        most = max((row.springs_y - row.cof_y for row in own), key=abs)
+        off, most = max((row.springs_y - row.cof_y for row in own), key=abs), max(row.cof_y for row in own)
         yield Check(
-            f"force across over μ_0 F_N, springs less cells, worst: {what}", most, 0.0, 0.04, "as along the pull"
+            f"force across over μ_0 F_N, springs less cells, worst: {what}", off, 0.0, 0.04, "as along the pull"
         )
-        yield Check.at_least(
-            f"greatest force across: {what}", max(row.cof_y for row in own), 0.3, "springs are not what pushes"
-        )
+        yield Check.at_least(f"greatest force across: {what}", most, 0.3, "springs are not what pushes")
 
 
 def _is_fitted(point: Point) -> bool:
     return (point.shape, point.nu, point.mu_0) == ("paraboloid", NU, MU_0)
+
+
+#: contacts with coupling
+KINDS = {
+    "ν = 0.3, μ_0 = 0.3, fitted": _is_fitted,
+    "μ_0 = 0.1 and 0.6": lambda p: p.shape == "paraboloid" and p.mu_0 != MU_0,
+    "ν = 0": lambda p: p.nu == 0,
+    "flat punch": lambda p: p.shape == "flat punch",
+    "cone and r^4": lambda p: p.shape in ("cone", "r^4"),
+}
 
 
 def _coupled(cells: Sequence[Row], exact: Sequence[Row], quick: bool) -> list[tuple[Row, float, float]]:
@@ -298,17 +298,11 @@ def _coupled(cells: Sequence[Row], exact: Sequence[Row], quick: bool) -> list[tu
 
     Rows at velocities for which nothing is known without coupling are left out; a punch is one spring there.
     """
-    without = {(row.point.shape, row.point.eta, row.point.v): row.off for row in exact}
-    without |= {(r.point.shape, r.point.eta, r.point.v): r.off for r in cells if _is_plain(r.point)}
+    without = {row.point.place: row.off for row in (*exact, *(row for row in cells if row.point.plain))}
     without |= {("flat punch", row.point.eta, row.point.v): 0.0 for row in cells}
-    rows = [row for row in cells if row.point.coupled and not row.point.alpha]
-    rows = [row for row in rows if (row.point.shape, row.point.eta, row.point.v) in without]
+    rows = [row for row in cells if row.point.coupled and not row.point.alpha and row.point.place in without]
     rows = [row for row in rows if not quick or row.point.v in (0.1, 0.8)]
-    return [(r, r.off - without[r.point.shape, r.point.eta, r.point.v], by_coupling(r)) for r in rows]
-
-
-def _is_plain(point: Point) -> bool:
-    return not point.coupled and not point.alpha
+    return [(row, row.off - without[row.point.place], by_coupling(row)) for row in rows]
 
 
 def _surface_checks(beyond: float) -> Checks:
@@ -341,8 +335,13 @@ def _surface(shape: str, eta: float, v: float, n: int) -> tuple[Array, list[Arra
 
 
 @figure("across", 1, 3, size=(13.2, 4.2), sharey=True)
-def _figure(fig, panels, off: dict[str, list[Row]]) -> str:
-    """Three panels of friction against velocity: marks of three dimensions on lines of springs, and below them"""
+def _figure(fig, panels, off: dict[str, list[Row]]):
+    """Three panels of friction against velocity: marks of three dimensions on lines of springs, and below them
+
+    Shaken across at a constant depth, no coupling: springs (lines) and a half-space with Coulomb's law in every point
+    (circles). They agree from v_0 = 0.05 μ_0 κ ω u_z0 on, to 0.02. At rest, at the left edge, springs hold what the
+    dashes say, a half-space what the triangles say: both are closed forms.
+    """
     for ax, shape in zip(panels, CURVED, strict=True):
         for eta, colour in zip((0.25, 0.5, 0.75, 1.0, 2.0), COLOURS, strict=False):
             own = sorted((row for row in off[shape] if row.point.eta == eta), key=lambda row: row.point.v)
@@ -355,16 +354,17 @@ def _figure(fig, panels, off: dict[str, list[Row]]) -> str:
         ax.set(xscale="log", xlabel=r"$v_0/(\mu_0\kappa\omega u_{z0})$", title=shape_label(shape))
     panels[0].set_ylabel(r"$\mu/\mu_0$")
     panels[0].legend(loc="lower right")
-    return (
-        "Shaken across at a constant depth, no coupling: springs (lines) and a half-space with Coulomb's law in every"
-        " point (circles). They agree from v_0 = 0.05 μ_0 κ ω u_z0 on, to 0.02. At rest, at the left edge, springs hold"
-        " what the dashes say, a half-space what the triangles say: both are closed forms."
-    )
 
 
 @figure("across_law", 1, 3, size=(13.2, 4.2))
-def _law_figure(fig, panels, off: dict[str, list[Row]], coupled: Sequence[tuple[Row, float, float]]) -> str:
-    """Three panels: what is held at rest; difference over the law; what coupling takes over its law"""
+def _law_figure(fig, panels, off: dict[str, list[Row]], coupled: Sequence[tuple[Row, float, float]]):
+    """Three panels: what is held at rest; difference over the law; what coupling takes over its law
+
+    Left: what a contact shaken across holds at rest, colours as in the middle; flat punch: the three agree, for curved
+    faces a half-space holds least. Middle: how much springs are too high by, over the law that was fitted to the
+    paraboloid. Right: what coupling takes beyond that, over that of a stiffer contact; crosses are what it was fitted
+    to, red is ν = 0.
+    """
     rest, slow, side = panels
     sizes = np.linspace(0, 1, 41)
     for shape, (colour, marker) in LOOKS.items():
@@ -372,42 +372,31 @@ def _law_figure(fig, panels, off: dict[str, list[Row]], coupled: Sequence[tuple[
             rest.plot(sizes, [_held(shape, eta, surface) if eta < 1 else 0 for eta in sizes], line, color=colour)
         rest.plot(sizes, [_eq_8(shape, eta) for eta in sizes], ":", color=colour, lw=1)
         own = [row for row in off[shape] if row.point.eta < 1]
-        slow.plot(
-            [law(r.point) for r in own], [r.off for r in own], marker, color=colour, mfc="w", label=shape_label(shape)
-        )
+        found = [row.off for row in own]
+        slow.plot([law(row.point) for row in own], found, marker, color=colour, mfc="w", label=shape_label(shape))
     for line, label in (("--", "springs"), ("-", "half-space"), (":", "Eq. (8), later paper")):
         rest.plot([], [], line, color="0.3", label=label)
-    rest.set(xlabel=r"$\eta = \Delta u_y/(\mu_0\kappa u_{z0})$", ylabel=r"held at rest over $\mu_0F_N$")
-    rest.legend()
+    panel(rest, r"$\eta = \Delta u_y/(\mu_0\kappa u_{z0})$", r"held at rest over $\mu_0F_N$", legend="best")
     slow.plot([0, 0.08], [0, 0.08], color="0.75", lw=0.8)
-    slow.set(xlabel="the law", ylabel=r"(springs $-$ half-space)/$\mu_0$", title="no coupling")
-    slow.legend()
+    panel(slow, "the law", r"(springs $-$ half-space)/$\mu_0$", "no coupling", legend="best")
     for row, found, said in coupled:
-        own_look = {0.0: "C3", 0.3: COLOURS[0]}[row.point.nu]
-        fitted = _is_fitted(row.point)
-        side.plot(said, found, "+" if fitted else "o", color="k" if fitted else own_look, mfc="w")
+        mark, colour = ("+", "k") if _is_fitted(row.point) else ("o", {0.0: "C3", 0.3: COLOURS[0]}[row.point.nu])
+        side.plot(said, found, mark, color=colour, mfc="w")
     top = max(max(found, said) for _, found, said in coupled)
     side.plot([0, top], [0, top], color="0.75", lw=0.8)
-    side.set(xlabel=r"a contact stiffer by $0.36\,\beta^2/\kappa$", ylabel=r"what coupling takes, over $\mu_0$")
-    side.set_title("crosses: fitted")
-    return (
-        "Left: what a contact shaken across holds at rest, colours as in the middle; flat punch: the three agree,"
-        " for curved faces a half-space holds least. Middle: how much springs are too high by, over the law that was"
-        " fitted to the paraboloid. Right: what coupling takes beyond that, over that of a stiffer contact; crosses are"
-        " what it was fitted to, red is ν = 0."
-    )
+    x, y = r"a contact stiffer by $0.36\,\beta^2/\kappa$", r"what coupling takes, over $\mu_0$"
+    panel(side, x, y, "crosses: fitted")
 
 
 @figure("across_surface", size=(6.4, 4.0))
-def _surface_figure(fig, ax) -> str:
-    """Curves of the traction over the limit against the distance from the axis, above and below one"""
+def _surface_figure(fig, ax):
+    """Curves of the traction over the limit against the distance from the axis, above and below one
+
+    Traction on the surface that belongs to springs, over its limit, at four instants: paraboloid, η = 0.5, v = 0.1.
+    Above the dashed line Coulomb's law is broken, though every spring obeys it.
+    """
     r, ratios = _surface("paraboloid", 0.5, 0.1, 200)
     for i, colour in zip((0, 2, 4, 6), COLOURS, strict=False):
         ax.plot(r, ratios[i], color=colour, label=f"{i}/16 of a period")
     ax.axhline(1.0, color="0.5", lw=1, ls="--")
-    ax.set(xlabel="distance from the axis over the contact radius", ylabel=r"$|q|/(\mu_0\,p)$")
-    ax.legend()
-    return (
-        "Traction on the surface that belongs to springs, over its limit, at four instants: paraboloid, η = 0.5, v ="
-        " 0.1. Above the dashed line Coulomb's law is broken, though every spring obeys it."
-    )
+    panel(ax, "distance from the axis over the contact radius", r"$|q|/(\mu_0\,p)$", legend="best")

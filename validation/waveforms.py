@@ -15,20 +15,19 @@ Symbols: w waveform of period 1, mean 0 and least value -1; A_z fall of the dept
 beta = 2 pi v_0/(mu_0 kappa omega A_z); N harmonics; T = omega tau.
 """
 
-from dataclasses import replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 
 import mdr
 from mdr import laws
 from mdr.normal.normal_force import mean_normal_force
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import CATALOGUE, DEPTH, OMEGA, SHAPES, any_contact, body, contact, depth_of, loss, shaken
-from validation.figures import circles, figure
+from validation.cases import CATALOGUE, DEPTH, OMEGA, SHAPES, any_contact, contact, depth_of, loss, shaken
+from validation.figures import COLOURS, circles, figure, panel
 from validation.measured import power
-from validation.report import Check, Checks, Claim, Equation
+from validation.report import Check, Checks, Claim, Equation, told
 
 RUBBER = {T: mdr.KelvinVoigt(E=3e6, nu=0.5, tau=T / OMEGA) for T in (1.0, 10.0)} | {0.0: mdr.Elastic(E=3e6, nu=0.5)}
 ARMS = mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (6e6, 5e-3)), nu=0.5)
@@ -75,47 +74,45 @@ _EQUATIONS = (
 
 
 def claim(effort: str) -> Claim:
-    """Psi against closed forms and runs, the theorem on many contacts, the steepest waveform and the best ones."""
+    """Whatever the waveform, friction is concave in velocity; how far N harmonics can raise v_c is known
+
+    How: Psi against closed forms and runs, the theorem on many contacts, the steepest waveform and the best ones.
+
+    Quote: This is illustrated in Fig. 1, which qualitatively describes the behavior of the average coefficient of
+    friction, as it increases from its static value to μ_0 with increasing sliding velocity. (Section 1)
+
+    Range: Saws, square, pulse, sine and random waveforms; four shapes and a sphere, elastic, Kelvin and with Maxwell
+    arms, contact kept and lost; rigid pull, and bodies on a spring; up to 6 harmonics, depth nowhere negative.
+
+    Measured: For a punch and any waveform M. Popov (2020, doi 10.3389/fmech.2020.00069, after Eq. (33)) states without
+    proof that lost friction falls with velocity and is convex. The proof is short, and says more. Under a rigid pull
+    the force of every spring is the greatest that its limit and the pull allow, and what is allowed at two velocities
+    is, mixed, allowed between them. So friction rises and is concave in v_0 for every shape, periodic depth and
+    material with arms, contact kept or lost, and lies above the straight line from its static value to μ_0 at v_c. On
+    elastic springs a body without mass changes nothing of this; mass can break it (friction still never falls), and so
+    does a shake along the slide. With N harmonics and a depth that is never negative v_c is at most (N + 1) √(N(N +
+    2)/12) times that of the sine of the same period: 14 for N = 6, and {gain_6:.2f} times that of the sine of the
+    greatest frequency. A Kelvin contact keeps this gain as long as it has closed again at the steepest instant, and a
+    body far below the excitation all of it. At the velocity at which the sine takes nothing the best waveform of N =
+    {most} takes {taken:.2f} of μ_0. The fit (37) of the sine is off by {fit:.3f} at most, at {where:.2f} v_c.
+
+    Verdict: holds
+
+    Sentence: Under a rigid pull friction rises and is concave in v_0 for every shape, waveform and linear material; N
+    harmonics that keep contact have v_c ≤ (N + 1) √(N(N + 2)/12) μ_0 κ ω u_z0.
+    """
     quick = effort == "quick"
     best = {N: laws.best_waveform(N, 2 * np.pi) for N in ((1, 3) if quick else (1, 2, 3, MOST))}
     most = max(best)
     fit, where = fit_error()
+    of_a_punch = (*_form_checks(fit), *_march_checks(quick), *_convex_checks(quick), *_shape_checks())
+    of_every_contact = (*_concave_checks(quick), *_named_checks())
+    of_n_harmonics = (*_steepest_checks(quick), *_left_checks((MOST,) if quick else (3, MOST)))
+    gain_6, taken = laws.steepest_waveform(6)[0] / 6, best[most][0]
     return Claim(
-        name="waveforms",
-        title="Whatever the waveform, friction is concave in velocity; how far N harmonics can raise v_c is known",
-        quote="This is illustrated in Fig. 1, which qualitatively describes the behavior of the average coefficient of"
-        " friction, as it increases from its static value to μ_0 with increasing sliding velocity. (Section 1)",
-        range="Saws, square, pulse, sine and random waveforms; four shapes and a sphere, elastic, Kelvin and with"
-        " Maxwell arms, contact kept and lost; rigid pull, and bodies on a spring; up to 6 harmonics, depth nowhere"
-        " negative.",
-        measured="For a punch and any waveform M. Popov (2020, doi 10.3389/fmech.2020.00069, after Eq. (33)) states"
-        " without proof that lost friction falls with velocity and is convex. The proof is short, and says"
-        " more. Under a rigid pull the force of every spring is the greatest that"
-        " its limit and the pull allow, and what is allowed at two velocities is, mixed, allowed between them. So"
-        " friction rises and is concave in v_0 for every shape, periodic depth and material with arms, contact kept or"
-        " lost, and lies above the straight line from its static value to μ_0 at v_c. On elastic springs a body"
-        " without mass changes nothing of this; mass can break it (friction still never falls), and so does a shake"
-        " along the slide. With N harmonics and a depth that is never negative v_c is at most (N + 1) √(N(N + 2)/12)"
-        " times that of the sine of the same period: 14 for N = 6, and"
-        f" {laws.steepest_waveform(6)[0] / 6:.2f} times that of the sine of the greatest frequency. A Kelvin contact"
-        " keeps this gain as long as it has closed again at the steepest instant, and a body far below the excitation"
-        " all of it. At the velocity at which the sine takes nothing the best waveform of"
-        f" N = {most} takes {best[most][0]:.2f} of μ_0. The fit (37) of the sine is off by {fit:.3f} at most, at"
-        f" {where:.2f} v_c.",
-        verdict="holds",
-        sentence="Under a rigid pull friction rises and is concave in v_0 for every shape, waveform and linear"
-        " material; N harmonics that keep contact have v_c ≤ (N + 1) √(N(N + 2)/12) μ_0 κ ω u_z0.",
-        checks=(
-            *_form_checks(fit),
-            *_march_checks(quick),
-            *_convex_checks(quick),
-            *_shape_checks(),
-            *_concave_checks(quick),
-            *_named_checks(),
-            *_steepest_checks(quick),
-            *_left_checks((MOST,) if quick else (3, MOST)),
-            *_best_checks(best),
-        ),
+        "waveforms",
+        **told(claim, locals()),
+        checks=(*of_a_punch, *of_every_contact, *of_n_harmonics, *_best_checks(best)),
         figures=(_figure(best[most], most),),
         equations=_EQUATIONS,
     )
@@ -137,6 +134,11 @@ def motion_of(cos: Array, sin: Array, alpha: float = 1.0) -> mdr.PeriodicMotion:
     """The depth about its mean, over the mean, at 50 Hz."""
     scale = alpha * DEPTH
     return mdr.PeriodicMotion(OMEGA, DEPTH, tuple(scale * np.asarray(cos)), tuple(scale * np.asarray(sin)))
+
+
+def moved(motion: mdr.Motion, shape: str = "flat punch", T: float = 0.0, **more: Any) -> mdr.SlidingContact:
+    """A shape on rubber, with its depth in motion."""
+    return any_contact(SHAPES[shape], RUBBER[T], motion, **more)
 
 
 def steepest(N: int, alpha: float = 1.0) -> mdr.PeriodicMotion:
@@ -166,7 +168,7 @@ def _march_checks(quick: bool) -> Checks:
     yield Check.at_most("COF/μ_0 of slide() less 1 − α Ψ, sine, worst of 20 velocities", off, 1e-9, "2048 steps")
     for name, (make, _, _) in list(SMOOTH.items())[: 1 if quick else None]:
         motion = make(u_z0=DEPTH, du_z=0.7 * DEPTH, omega=OMEGA, n_harmonics=16)
-        case, v = any_contact(SHAPES["flat punch"], RUBBER[0.0], motion), np.array([0.05, 0.3, 1.2])
+        case, v = moved(motion), np.array([0.05, 0.3, 1.2])
         off = np.max(np.abs(_marched(case, 0.7 * UNIT * v, 8192) - 1 + 0.7 * laws.waveform_loss(motion, 2 * np.pi * v)))
         why = "8192 steps, 512 of the sixteenth harmonic"
         yield Check.at_most(f"COF/μ_0 of slide() less 1 − α Ψ, worst of 3: {name} of 16 harmonics", off, 1e-8, why)
@@ -183,10 +185,8 @@ def _convex_checks(quick: bool) -> Checks:
     rng, n, beta = np.random.default_rng(SEED), 100 if quick else 500, np.linspace(0, 30, 31)
     losses = np.array([laws.waveform_loss(rng.normal(size=rng.integers(3, 40)) ** 3, beta) for _ in range(n)])
     why = "rounding; Ψ is a mean of suprema of functions linear in β"
-    yield Check.at_most(
-        f"greatest rise of Ψ between velocities, {n} random waveforms", np.diff(losses).max(), 1e-12, why
-    )
-    bend = -np.diff(losses, 2).min()
+    rise, bend = np.diff(losses).max(), -np.diff(losses, 2).min()
+    yield Check.at_most(f"greatest rise of Ψ between velocities, {n} random waveforms", rise, 1e-12, why)
     yield Check.at_most(f"greatest concave bend of Ψ, {n} random waveforms", bend, 1e-12, why)
 
 
@@ -197,7 +197,7 @@ def _shape_checks() -> Checks:
         off = []
         for alpha in alphas:
             motion = mdr.waveforms.square(DEPTH, alpha * DEPTH, OMEGA, n_harmonics=5)
-            case = any_contact(SHAPES[shape], RUBBER[0.0], motion)
+            case = moved(motion, shape)
             lost = 1 - mdr.cof_curve(case, alpha * UNIT * beta / (2 * np.pi)).cof / case.mu_0
             share = case.k_zc * alpha * DEPTH / mean_normal_force(case)
             off.append(np.max(np.abs(lost / share - laws.waveform_loss(motion, beta))))
@@ -231,7 +231,7 @@ def _concave_checks(quick: bool) -> Checks:
     motion = mdr.waveforms.sawtooth(DEPTH, 1.5 * DEPTH, OMEGA, n_harmonics=3, falling=True)
     case = any_contact(SHAPES["cone"], ARMS, motion)
     yield from _bend_checks("two Maxwell arms, cone, contact lost", [bends(case, 6 if quick else 11)])
-    case = any_contact(SHAPES["cone"], RUBBER[0.0], motion, {"k_ratio": 1.0})
+    case = moved(motion, "cone", groups={"k_ratio": 1.0})
     yield from _bend_checks("body without mass, elastic cone, contact lost", [bends(case, 6 if quick else 11)])
     rise, bend, error = bends(contact("flat punch", 0.3, k_ratio=1.0, omega_0_ratio=2.2, damping_ratio=0.1), 11)
     where = "elastic punch on a body of ω_0 = 2.2 ω"
@@ -260,7 +260,7 @@ def _named_checks() -> Checks:
     beta = np.geomspace(0.3, 100, 50)
     for name, (make, v_c, most) in SMOOTH.items():
         motion = make(u_z0=DEPTH, du_z=DEPTH, omega=OMEGA, n_harmonics=16)
-        case = any_contact(SHAPES["flat punch"], RUBBER[0.0], motion)
+        case = moved(motion)
         got, why = mdr.critical_velocity(case) / UNIT, "two digits, as the docstring has it"
         yield Check(f"v_c over that of the sine of the same A_z: {name} of 16 harmonics", got, v_c, 0.011 * v_c, why)
         off = np.max(np.abs(laws.waveform_loss(motion, beta) - IDEAL[name][1](beta)))
@@ -281,9 +281,8 @@ def _steepest_checks(quick: bool) -> Checks:
             runs.append(mdr.measure_critical_velocity(case, accuracy=1e-8).v_c / (UNIT * d / DEPTH))
         for how, got in (("full slip", full), ("runs", runs)):
             off = np.max(np.abs(np.array(got) / gain - 1))
-            name = f"critical velocity by {how} over the gain of the steepest waveform, less 1, worst of 5 shapes: "
-            name += f"N = {N}"
-            yield Check.at_most(name, off, 1e-6, "the closed form is exact")
+            name = f"critical velocity by {how} over the gain of the steepest waveform, less 1, worst of 5 shapes"
+            yield Check.at_most(f"{name}: N = {N}", off, 1e-6, "the closed form is exact")
         n = 1000 if quick else 10_000
         got = np.max(_random_slopes(N, n)) / gain
         why = "Fejér and Riesz: any depth that is nowhere negative is a square, and may be drawn at random"
@@ -307,7 +306,7 @@ def _random_slopes(N: int, n: int) -> Array:
 def _left_checks(orders: tuple[int, ...]) -> Checks:
     """What is left of the gain on a Kelvin contact and under a body."""
     for T, N in product((1.0, 10.0), orders):
-        case = any_contact(SHAPES["paraboloid"], RUBBER[T], steepest(N))
+        case = moved(steepest(N), "paraboloid", T)
         gain, full = laws.steepest_waveform(N)[0], mdr.full_slip_critical_velocity(case) / UNIT
         name = f"v_c over that of the gain, paraboloid that is lost, ωτ = {T:g}: N = {N}"
         if T == 1:
@@ -338,16 +337,14 @@ _WHY_BODY = {
 
 def _with_body(ratio: float, N: int) -> mdr.SlidingContact:
     """A punch that keeps contact in the steepest waveform, under a body of this natural frequency over omega."""
-    shape, rubber = SHAPES["flat punch"], RUBBER[0.0]
-    case = any_contact(shape, rubber, steepest(N, 0.9))
-    return replace(case, pull=body(shape, rubber, DEPTH, 1.5, ratio, 0.05))
+    return moved(steepest(N, 0.9), groups={"k_ratio": 1.5, "omega_0_ratio": ratio, "damping_ratio": 0.05})
 
 
 def _best_checks(best: dict[int, tuple[float, Array, Array]]) -> Checks:
     """Where the sine takes nothing, beta = 2 pi."""
     rng = np.random.default_rng(SEED)
     for N, (found, cos, sin) in best.items():
-        case = any_contact(SHAPES["flat punch"], RUBBER[0.0], motion_of(cos, sin))
+        case = moved(motion_of(cos, sin))
         run = mdr.slide(case, UNIT)
         name = f"the best waveform of N = {N} at the v_c of the sine"
         why = "what a run promises when it chooses step and springs itself"
@@ -364,19 +361,23 @@ def _best_checks(best: dict[int, tuple[float, Array, Array]]) -> Checks:
 
 
 @figure("steepest", 1, 3, size=(13.2, 4.2))
-def _figure(fig, axes, best: tuple[float, Array, Array], N: int) -> str:
+def _figure(fig, axes, best: tuple[float, Array, Array], N: int):
     """Three panels: the steepest depths of one to six harmonics over a period; what they gain in v_c; friction over
     velocity of sine, steepest and best waveform.
+
+    What to drive with when the depth must nowhere be negative. Left: the steepest depth that N harmonics can make,
+    steepest at 0 ({series}). Middle: its critical velocity over that of the sine, closed form (lines) and runs
+    (circles), for every shape; more harmonics help even if it is the greatest frequency Nω that limits a drive. Right:
+    friction of a flat punch with {N} harmonics, and the least there is at a velocity (circles); at the one at which the
+    sine takes nothing the best waveform takes {best:.2f} of μ_0.
     """
     shapes, gains, curves = axes
     x = np.linspace(-0.5, 0.5, 601)
     for n, colour in zip(range(1, MOST + 1), [*COLOURS, "0.4", "k"], strict=False):
         motion = steepest(n)
         shapes.plot(x, motion.u_z(x * motion.period) / DEPTH, color=colour, lw=1.6, label=f"{n}")
-    shapes.set(
-        title="steepest depth of $N$ harmonics", xlabel="time over period", ylabel="$u_z/u_{z0}$", xlim=(-0.5, 0.5)
-    )
-    shapes.legend(title="$N$")
+    title, legend = "steepest depth of $N$ harmonics", {"title": "$N$"}
+    panel(shapes, "time over period", "$u_z/u_{z0}$", title, legend=legend, xlim=(-0.5, 0.5))
     n = np.arange(1, 13)
     gain = np.array([laws.steepest_waveform(k)[0] for k in n])
     gains.plot(n, gain, color=COLOURS[0], label="the same period")
@@ -384,40 +385,27 @@ def _figure(fig, axes, best: tuple[float, Array, Array], N: int) -> str:
     ran = np.array([_measured_gain(k) for k in n[:MOST]])
     circles(gains, n[:MOST], ran, COLOURS[0])
     circles(gains, n[:MOST], ran / n[:MOST], COLOURS[1])
-    gains.set(title="$v_c$ over that of the sine of", xlabel="harmonics $N$", yscale="log", xlim=(0.5, 12.5))
-    gains.legend()
+    panel(gains, "harmonics $N$", title="$v_c$ over that of the sine of", log="y", legend="best", xlim=(0.5, 12.5))
     v = laws.steepest_waveform(N)[0] * 1.05 * np.linspace(0, 1, 90) ** 2
-    drawn = {
-        r"sine of $\omega$": sine,
-        rf"sine of ${N}\omega$": lambda x: sine(N * x),
-        f"steepest, $N={N}$": steepest(N),
-    }
-    for (label, w), colour in zip(drawn.items(), COLOURS, strict=False):
-        curves.plot(v, 1 - laws.waveform_loss(w, 2 * np.pi * v), color=colour, label=label)
-    chosen = motion_of(*best[1:])
-    curves.plot(
-        v, 1 - laws.waveform_loss(chosen, 2 * np.pi * v), color="k", ls="--", label="best at the dotted velocity"
-    )
+    for label, w, look in (
+        (r"sine of $\omega$", sine, {"color": COLOURS[0]}),
+        (rf"sine of ${N}\omega$", lambda x: sine(N * x), {"color": COLOURS[1]}),
+        (f"steepest, $N={N}$", steepest(N), {"color": COLOURS[2]}),
+        ("best at the dotted velocity", motion_of(*best[1:]), {"color": "k", "ls": "--"}),
+    ):
+        curves.plot(v, 1 - laws.waveform_loss(w, 2 * np.pi * v), label=label, **look)
     at = v[-1] * np.array([0.04, 0.15, 0.3, 0.6])
-    circles(
-        curves, at, [1 - laws.best_waveform(N, 2 * np.pi * one)[0] for one in at], "k", label="best at each velocity"
-    )
+    most = [1 - laws.best_waveform(N, 2 * np.pi * one)[0] for one in at]
+    circles(curves, at, most, "k", label="best at each velocity")
     curves.axvline(1.0, color="0.5", lw=1, ls=":")
-    curves.set(title=f"flat punch, {N} harmonics", xlabel=r"$v_0/(\mu_0\kappa\omega u_{z0})$", ylabel=r"$\mu/\mu_0$")
-    curves.set(xlim=(0, v[-1]), ylim=(0, 1.02))
-    curves.legend(loc="lower right")
-    return (
-        "What to drive with when the depth must nowhere be negative. Left: the steepest depth that N harmonics can"
-        f" make, steepest at 0 ({_series(3)}). Middle: its critical velocity over that of the sine, closed form (lines)"
-        " and runs (circles), for every shape; more harmonics help even if it is the greatest frequency Nω that limits"
-        f" a drive. Right: friction of a flat punch with {N} harmonics, and the least there is at a velocity (circles);"
-        f" at the one at which the sine takes nothing the best waveform takes {best[0]:.2f} of μ_0."
-    )
+    x, title = r"$v_0/(\mu_0\kappa\omega u_{z0})$", f"flat punch, {N} harmonics"
+    panel(curves, x, r"$\mu/\mu_0$", title, legend="lower right", xlim=(0, v[-1]), ylim=(0, 1.02))
+    return {"series": _series(3), "N": N, "best": best[0]}
 
 
 def _measured_gain(N: int) -> float:
     """v_c of the steepest waveform by runs, over that of the sine."""
-    found = mdr.measure_critical_velocity(any_contact(SHAPES["paraboloid"], RUBBER[0.0], steepest(N)))
+    found = mdr.measure_critical_velocity(moved(steepest(N), "paraboloid"))
     return float(np.nan if found.v_c is None else found.v_c / UNIT)
 
 

@@ -17,7 +17,7 @@ import validation
 import validation.__main__ as command
 from validation.page import html_page, write_report
 from validation.page.answer import answers
-from validation.report import Check, Claim, Equation, Figure, Part, text_table
+from validation.report import Check, Claim, Equation, Figure, Part, text_table, told
 
 ROOT = Path(__file__).parents[2]
 
@@ -179,6 +179,29 @@ def test_a_quick_run_is_marked_and_a_full_one_is_not():
     assert "QUICK" not in full
     part = html_page([made_up_claim("mapping")])
     assert f"<b>PART</b> {len(validation.CLAIMS) - 1} of the {len(validation.CLAIMS)} claims" in part
+
+
+LEAST = 3
+
+
+def an_example():
+    """v_c of a rigid pull
+
+    How: not for the page.
+
+    Range: {n} runs, from
+    {LEAST} on.
+
+    Sentence: x^{{2}} holds.
+    """
+    n = 7
+    return told(an_example, locals())
+
+
+def test_the_docstring_of_a_claim_is_its_text():
+    assert an_example() == {
+        "title": "v_c of a rigid pull", "quote": "", "range": "7 runs, from 3 on.", "sentence": "x^{2} holds.",
+    }  # fmt: skip
 
 
 def test_the_answer_takes_its_numbers_from_the_checks_and_says_where_it_has_none():

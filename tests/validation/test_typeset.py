@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from validation.formula import mathml
-from validation.page.paper import PAPER
-from validation.page.symbols import SYMBOLS
+from validation.page.paper import PAPER, SYMBOLS
 from validation.typeset import markup, number
 from validation.words import counted, listed, percent, ranged, span
 from validation.words import number as number_in_words
@@ -92,7 +91,7 @@ def test_a_formula_that_is_not_understood_is_refused(tex):
 def test_equations_and_symbols_can_be_set():
     for one in PAPER:
         assert mathml(one.tex).count("<math") == 1
-    for tex, meaning, _ in SYMBOLS:
+    for tex, (meaning, _) in SYMBOLS.items():
         assert mathml(tex, block=False)
         assert meaning
     numbers = [int(n) for one in PAPER for n in re.findall(r"\((\d+)\)", one.name)]

@@ -20,7 +20,7 @@ from mdr.tools.progress import progress
 from validation.cases import BODY, CATALOGUE, OMEGA, SHAPES, E, any_contact, depth_of, shape_label
 from validation.figures import figure
 from validation.measured import TOLERANCE, Point, measured, slope_at_zero
-from validation.report import Check, Checks, Equation, Part
+from validation.report import Check, Checks, Equation, Part, told
 from validation.words import counted
 
 NU = 0.5
@@ -62,24 +62,34 @@ _EQUATION = Equation(
 
 
 def part(effort: str) -> Part:
-    """Every shape: measured, and by the first order of its deviation."""
+    """Shape: all of the handbook
+
+    How: Every shape: measured, and by the first order of its deviation.
+
+    Range: {n_shapes} shapes: {shapes}; each at a depth within its range; {velocities} at α = 0.1 ({pulls}); and the
+    full-slip value under a body at α → 0: elastic{and_kelvin} for all shapes, standard solid for {some}.
+
+    Measured: {rigid}Body: what a shape does to v_c at small amplitude is one number, the exponent s with which its
+    stiffness changes about the mean depth. The deviation from Eq. (15) is C α s, with one C for all shapes, closed
+    forms, sampled points and measured forces alike; a flat or hollow punch has none. For a standard solid C is another
+    number, again the same for {those}.
+
+    Sentence: At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not know
+    the shape.
+    """
     quick = effort == "quick"
     points = [_measured(*which) for which in progress(_grid(quick), "catalogue")]
+    n_shapes = len(ALL)
+    shapes = ", ".join(ALL)
+    velocities = counted(len(points), "measured velocity")
+    pulls = "body" if quick else "rigid pull and body"
+    and_kelvin = "" if quick else " and Kelvin (ωτ = 1)"
+    some = "three" if quick else "the curved ones"
+    rigid = "" if quick else "Rigid pull: Eq. (1) for every shape. "
+    those = "the three shapes computed" if quick else "all curved shapes"
     return Part(
-        name="catalogue",
-        title="Shape: all of the handbook",
-        quote="",
-        range=f"{len(ALL)} shapes: {', '.join(ALL)}; each at a depth within its range;"
-        f" {counted(len(points), 'measured velocity')} at α = 0.1 ({'body' if quick else 'rigid pull and body'}); and"
-        f" the full-slip value under a body at α → 0: elastic{'' if quick else ' and Kelvin (ωτ = 1)'} for all shapes,"
-        f" standard solid for {'three' if quick else 'the curved ones'}.",
-        measured=f"{'' if quick else 'Rigid pull: Eq. (1) for every shape. '}Body: what a shape does to v_c at small"
-        " amplitude is one number, the exponent s with which its stiffness changes about the mean depth. The deviation"
-        " from Eq. (15) is C α s, with one C for all shapes, closed forms, sampled points and measured forces alike; a"
-        " flat or hollow punch has none. For a standard solid C is another number, again the same for"
-        f" {'the three shapes computed' if quick else 'all curved shapes'}.",
-        sentence="At small amplitude the error of Eq. (15) is C α s for every shape, s = d ln k_zc/d ln d; C does not"
-        " know the shape.",
+        "catalogue",
+        **told(part, locals()),
         checks=(*_measured_checks(points), *_order_checks(quick)),
         figures=(_figure(quick),),
         equations=(_EQUATION,),
@@ -140,8 +150,13 @@ def _order_checks(quick: bool) -> Checks:
 
 
 @figure("slopes", size=(8.4, 4.4))
-def _figure(fig, ax, quick: bool) -> str:
-    """Points of all shapes on a straight line through zero, one line for each material."""
+def _figure(fig, ax, quick: bool):
+    """Points of all shapes on a straight line through zero, one line for each material.
+
+    {n} shapes under the same body{kind}: how fast v_c leaves Eq. (15) with amplitude, over the exponent with which the
+    stiffness of the contact changes about its mean depth. {they} lie on one straight line through zero: at small
+    amplitude v_c depends on the shape through this exponent alone.
+    """
     slopes = np.array([slope(shape) for shape in ALL])
     for material, colour in zip(list(MATERIALS)[: 1 if quick else 3], ("C0", "C1", "C2"), strict=False):
         alpha = 0.01 if material == "standard solid" else 1e-3
@@ -152,9 +167,8 @@ def _figure(fig, ax, quick: bool) -> str:
     ax.legend(loc="lower left")
     rows = [f"{abs(slope(shape)):.2f}  {shape_label(shape)}" for shape in sorted(ALL, key=slope)]
     ax.text(1.04, 1.0, "\n".join(["$s$       shape", *rows]), transform=ax.transAxes, va="top", fontsize=8)
-    return (
-        f"{len(ALL)} shapes under the same body{', elastic' if quick else ''}: how fast v_c leaves Eq. (15) with"
-        " amplitude, over the exponent with which the stiffness of the contact changes about its mean depth."
-        f" {'They' if quick else 'All shapes of one material'} lie on one straight line through zero: at small"
-        " amplitude v_c depends on the shape through this exponent alone."
-    )
+    return {
+        "n": len(ALL),
+        "kind": ", elastic" if quick else "",
+        "they": "They" if quick else "All shapes of one material",
+    }

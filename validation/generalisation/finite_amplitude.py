@@ -30,7 +30,7 @@ from validation.cases import DAMPING, LOOKS, POWERS, SHAPES, STIFFNESS, driven, 
 from validation.figures import circles, figure, key, outer_labels, shape_keys, ticks
 from validation.measured import TOLERANCE, Point, measured, power, worst
 from validation.measured import deviation as deviation_of
-from validation.report import Check, Checks, Figure, Part
+from validation.report import Check, Checks, Figure, Part, told
 from validation.words import counted
 
 RATIOS = (0.3, 0.6, 0.8, 1.2, 1.5, 2.5, 3.5)  # omega_0/omega of the table
@@ -159,41 +159,52 @@ def alpha_x(shape: str, T: float, ratio: float, damping_ratio: float = DAMPING) 
 
 
 def part(effort: str) -> Part:
-    """Map the deviation, measure the table, fit the powers."""
+    """Amplitude: up to and beyond the loss of contact
+
+    How: Map the deviation, measure the table, fit the powers.
+
+    Quote: Only this “non-jumping” case is considered in the following. — Section 2.2, on Eq. (5)
+
+    Range: {shapes}; elastic and ωτ = 1; k_x = {STIFFNESS:g} k_x,c, damper {damping:g} % of critical; maps over α =
+    {RANGE[0][0]:g} … {RANGE[0][1]:g} and ω_0/ω = {RANGE[1][0]:g} … {RANGE[1][1]:g}; {velocities}, {n_lost} of them with
+    the whole contact lost in every period (α > 1 elastic, α > {lost_from:.2f} for ωτ = 1).
+
+    Measured: Within 1 % of Eq. (15), as a share of the map: {within}. Farthest off: {farthest}; measured:
+    {far_percent:+.0f} % ({far_point.where}). The full-slip value with all harmonics lies in the bracket of every
+    measurement, with contact kept or lost, and within {miss:.1e} of the measured one. For small α the error is of first
+    order where anything dissipates, of second where nothing does. With the damper alone, elastic cone, second order
+    takes over at α = {turns}, in proportion to a light damping. At ω_0 = 2ω it is the other way round: the second
+    harmonic, itself of first order in α, drives the body on its resonance, and with this damper 1 % is passed at α =
+    {resonant_elastic:.2g} (elastic) and {resonant_kelvin:.2g} (ωτ = 1), the sooner the lighter the damper. The relative
+    error is large too beside ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself nearly vanishes:
+    {beside:+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). On the maps, more than {ASIDE:g} ω aside of both, 1 % is kept by
+    every curved shape up to α = {reach_elastic:.2g} (elastic) and {reach_kelvin:.2g} (ωτ = 1). Where a flat punch is
+    lost it leaves Eq. (15), by a law of its own (claim on lost contact).
+
+    Sentence: How small is small depends on the body: with this damper, and ω_0 more than {ASIDE:g} ω aside of 2ω and of
+    {ZERO:.2g} ω, Eq. (15) is good to 1 % up to α = {reach_elastic:.2g} (elastic) and {reach_kelvin:.2g} (ωτ = 1), but
+    only to {resonant_elastic:.2g} and {resonant_kelvin:.2g} at ω_0 = 2ω; the full-slip condition is exact throughout,
+    lost contact included.
+    """
     points = [measure(*knobs) for knobs in progress(grid(effort), "finite_amplitude, measured")]
     known = maps(effort)
     far_point, lost = max(points, key=lambda p: abs(p.deviation)), [p for p in points if _lost(p)]
-    reach = {T: min(m.reach(0.01) for m in known if m.T == T) for T in (0.0, 1.0)}
+    reach_elastic, reach_kelvin = (min(m.reach(0.01) for m in known if m.T == T) for T in (0.0, 1.0))
     crossing = {r: alpha_x("cone", 0.0, r) for r in (1.5, 2.5)}
-    resonant = {T: 0.01 / abs(deviation("cone", 1e-5, T, 2.0) / 1e-5) for T in (0.0, 1.0)}  # where it is C alpha
+    # where it is C alpha
+    resonant_elastic, resonant_kelvin = (0.01 / abs(deviation("cone", 1e-5, T, 2.0) / 1e-5) for T in (0.0, 1.0))
+    shapes = ", ".join(SHAPES)
+    damping = 100 * DAMPING
+    velocities = counted(len(points), "measured velocity")
+    n_lost, lost_from = len(lost), 1 / np.sqrt(2)
+    within = "; ".join(f"{m.name}: {100 * m.share_within(0.01):.0f} %" for m in known)
+    farthest, far_percent = _farthest(known), 100 * far_point.deviation
+    miss = max(abs(p.miss) for p in points)
+    turns = "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items())
+    beside = 100 * deviation("cone", 0.03, 0.0, 0.8)
     return Part(
-        name="finite_amplitude",
-        title="Amplitude: up to and beyond the loss of contact",
-        quote="Only this “non-jumping” case is considered in the following. — Section 2.2, on Eq. (5)",
-        range=f"{', '.join(SHAPES)}; elastic and ωτ = 1; k_x = {STIFFNESS:g} k_x,c, damper {100 * DAMPING:g} % of"
-        f" critical; maps over α = {RANGE[0][0]:g} … {RANGE[0][1]:g} and ω_0/ω = {RANGE[1][0]:g} … {RANGE[1][1]:g};"
-        f" {counted(len(points), 'measured velocity')}, {len(lost)} of them with the whole contact lost in every period"
-        f" (α > 1 elastic, α > {1 / np.sqrt(2):.2f} for ωτ = 1).",
-        measured="Within 1 % of Eq. (15), as a share of the map: "
-        + "; ".join(f"{m.name}: {100 * m.share_within(0.01):.0f} %" for m in known)
-        + f". Farthest off: {_farthest(known)}; measured: {100 * far_point.deviation:+.0f} % ({far_point.where}). The"
-        " full-slip value with all harmonics lies in the bracket of every measurement, with contact kept or lost, and"
-        f" within {max(abs(p.miss) for p in points):.1e} of the measured one. For small α the error is of first order"
-        " where anything dissipates, of second where nothing does. With the damper alone, elastic cone, second order"
-        " takes over at α ="
-        " " + "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items()) + ", in proportion"
-        " to a light damping. At ω_0 = 2ω it is the other way round: the second harmonic, itself of first order in α,"
-        f" drives the body on its resonance, and with this damper 1 % is passed at α = {resonant[0.0]:.2g} (elastic)"
-        f" and {resonant[1.0]:.2g} (ωτ = 1), the sooner the lighter the damper. The relative error is large too beside"
-        f" ω_0 = {ZERO:.2g} ω, where Eq. (15) of an elastic contact itself nearly vanishes:"
-        f" {100 * deviation('cone', 0.03, 0.0, 0.8):+.1f} % at ω_0 = 0.8 ω, α = 0.03 (cone). On the maps, more than"
-        f" {ASIDE:g} ω aside of both, 1 % is kept by every curved shape up to α = {reach[0.0]:.2g} (elastic) and"
-        f" {reach[1.0]:.2g} (ωτ = 1). Where a flat punch is lost it leaves Eq. (15), by a law of its own (claim on lost"
-        " contact).",
-        sentence=f"How small is small depends on the body: with this damper, and ω_0 more than {ASIDE:g} ω aside of "
-        f"2ω and of {ZERO:.2g} ω, Eq. (15) is good to 1 % up to α = {reach[0.0]:.2g} (elastic) and {reach[1.0]:.2g} "
-        f"(ωτ = 1), but only to {resonant[0.0]:.2g} and {resonant[1.0]:.2g} at ω_0 = 2ω; the full-slip condition is"
-        f" exact throughout, lost contact included.",
+        "finite_amplitude",
+        **told(part, locals()),
         checks=(*_measured_checks(points), *_power_checks(effort)),
         figures=(_map_figure(known, points), _table_figure(points, effort)),
     )
@@ -244,9 +255,15 @@ def _power_checks(effort: str) -> Checks:
 
 
 @figure("errors", 2, 3, size=(9.6, 6.6), sharex=True, sharey=True)
-def _map_figure(fig, axes, known: list[Map], points: list[Point]) -> str:
+def _map_figure(fig, axes, known: list[Map], points: list[Point]):
     """Six maps of the error of Eq. (15) over amplitude and natural frequency: pale at small amplitude and for heavy
-    bodies, a ridge where the natural frequency is twice that of the oscillation, darker where the material dissipates.
+    bodies, a ridge where the natural frequency is twice that of the oscillation, darker where the material
+    dissipates.
+
+    How far the full-slip v_c with all harmonics is from Eq. (15), up or down, over amplitude and natural frequency of
+    the body. Palest: less than 1 %, which is {elastic:.0f} % of the elastic maps and {kelvin:.0f} % of the viscoelastic
+    ones. Most is off right of the dotted line, where the whole contact is lost in every period, and at ω_0 = 2ω, where
+    the second harmonic of the force drives the body. Greatest: {farthest}. Circles: where v_c was measured.
     """
     from matplotlib.colors import BoundaryNorm
 
@@ -264,13 +281,7 @@ def _map_figure(fig, axes, known: list[Map], points: list[Point]) -> str:
     outer_labels(axes, r"amplitude $\Delta u_z/u_{z0}$", r"$\omega_0/\omega$")
     fig.colorbar(mesh, ax=axes, ticks=BANDS, aspect=35, pad=0.02, label="$v_c$ off Eq. (15) by [%]")
     by_T = {T: np.mean([m.share_within(0.01) for m in known if m.T == T]) for T in (0.0, 1.0)}
-    return (
-        "How far the full-slip v_c with all harmonics is from Eq. (15), up or down, over amplitude and natural"
-        f" frequency of the body. Palest: less than 1 %, which is {100 * by_T[0.0]:.0f} % of the elastic maps and"
-        f" {100 * by_T[1.0]:.0f} % of the viscoelastic ones. Most is off right of the dotted line, where the whole"
-        " contact is lost in every period, and at ω_0 = 2ω, where the second harmonic of the force drives the body."
-        f" Greatest: {_farthest(known)}. Circles: where v_c was measured."
-    )
+    return {"elastic": 100 * by_T[0.0], "kelvin": 100 * by_T[1.0], "farthest": _farthest(known)}
 
 
 def _table_figure(points: list[Point], effort: str) -> Figure:
@@ -278,9 +289,14 @@ def _table_figure(points: list[Point], effort: str) -> Figure:
     return figure("table", rows, 4, size=(9.6, 2.15 * rows), sharex=True)(_table)(points)
 
 
-def _table(fig, axes, points: list[Point]) -> str:
-    """Panels of critical velocity over amplitude, one for each natural frequency, elastic above and viscoelastic below:
-    all shapes start on the dashed line of Eq. (15); the punch leaves it at the dotted line.
+def _table(fig, axes, points: list[Point]):
+    """Panels of critical velocity over amplitude, one for each natural frequency, elastic above and viscoelastic
+    below: all shapes start on the dashed line of Eq. (15); the punch leaves it at the dotted line.
+
+    The critical velocity over shape, natural frequency and amplitude: Eq. (15) (dashed, one value for all shapes and
+    amplitudes), full slip with all harmonics (lines) and {n} measured values (symbols), which lie on the lines to
+    {miss:.1e}. The flat punch follows Eq. (15) up to the dotted line, where it loses contact, and then leaves it:
+    {off:+.0f} % measured at α = {alpha:g}, ωτ = {T:g}, ω_0 = {ratio:g} ω.
     """
     n_low, n_high = (14, 20) if len(axes) > 2 else (4, 5)
     ratios, rows = (RATIOS, 2) if len(axes) > 2 else ((0.6, 2.5, 3.5), 1)  # rows for each material
@@ -313,10 +329,11 @@ def _table(fig, axes, points: list[Point]) -> str:
     shown = [p for p in points if p.pull in ratios]
     lost = [p for p in shown if p.shape == "flat punch" and _lost(p)]
     far = max(lost, key=lambda p: abs(p.deviation))
-    return (
-        f"The critical velocity over shape, natural frequency and amplitude: Eq. (15) (dashed, one value for all "
-        f"shapes and amplitudes), full slip with all harmonics (lines) and {len(shown)} measured values (symbols), "
-        f"which lie on the lines to {max(abs(p.miss) for p in shown):.1e}. The flat punch follows Eq. (15) up to the "
-        f"dotted line, where it loses contact, and then leaves it: "
-        f"{100 * far.deviation:+.0f} % measured at α = {far.alpha:g}, ωτ = {far.T:g}, ω_0 = {far.pull:g} ω."
-    )
+    return {
+        "n": len(shown),
+        "miss": max(abs(p.miss) for p in shown),
+        "off": 100 * far.deviation,
+        "alpha": far.alpha,
+        "T": far.T,
+        "ratio": far.pull,
+    }

@@ -24,14 +24,13 @@ import numpy as np
 
 import mdr
 from mdr import laws
-from mdr.plots import COLOURS
 from mdr.tools.progress import progress
 from validation.cases import DEPTH, LOOKS, POWERS, SHAPES, contact, loss, loss_label, shape_label
-from validation.figures import figure, ticks
+from validation.figures import COLOURS, figure, ticks
 from validation.generalisation import shapes as powers
 from validation.generalisation.shapes import PULLS, measure
 from validation.measured import TOLERANCE, Point
-from validation.report import Check, Checks, Equation, Part
+from validation.report import Check, Checks, Equation, Part, told
 from validation.words import counted, listed, number
 
 AMPLITUDE = 0.02 * DEPTH  # of the sweep of depths
@@ -65,7 +64,29 @@ _EQUATION = Equation(
 
 
 def part(effort: str) -> Part:
-    """Measure v_c over the depth, and set its slope beside the derivative of Eq. (15)."""
+    """Depth: what of v_c depends on it
+
+    How: Measure v_c over the depth, and set its slope beside the derivative of Eq. (15).
+
+    Quote: However, it does not depend on absolute indentation, which permits easy generalization to more realistic
+    contact geometry. — Section 3
+
+    Range: {names}; an amplitude of {amplitude:g} µm at depths from {shallow:.2g} to {deep:.0f} µm under a rigid pull,
+    and from {low:g} to {high:g} µm under one and the same mass, spring and damper; {velocities}, and slopes of the
+    full-slip value.
+
+    Measured: It is the formula that does not contain the depth, not v_c: the stiffness in Eq. (15) is that at the mean
+    depth. Over a factor of 16 in depth, at the same amplitude and body (ω_0 = 1.7 ω), v_c of the flat punch stays the
+    same to {same}, and changes by a factor of {changes}. The slope is d ln v_c/d ln u_z0 = S/n, n the power of the
+    shape and S = Re[−zk/(q − zk)] with k = k_x,c, z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {S_stiff:.2g} for that
+    body and {S_heavy:.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: under a rigid pull, for
+    any shape, here {rigid_names} over a factor of 500 in depth and up to α = 0.95 at ωτ = 1 (a surface that comes back
+    late ends this); for a flat punch that keeps contact; and at the one depth at which k_x,c = Re(q/z), where v_c has
+    its minimum and changes only by the square of the change in depth.
+
+    Sentence: v_c does not depend on the depth for a rigid pull and for a flat punch that keeps contact; else as much as
+    the stiffness k_x,c(u_z0) in Eq. (15) does, so to use Eq. (15) one has to know the depth.
+    """
     size = "quick" if effort == "quick" else "full"
     shapes = ("flat punch", "cone") if effort == "quick" else tuple(SHAPES)
     rigid_shapes = shapes[1:] if effort == "quick" else shapes
@@ -76,28 +97,16 @@ def part(effort: str) -> Part:
     heavy = contact("cone", 0.1, 0.0, **PULLS["soft spring"])
     over = {s: [p.over_rigid for p in points if (p.shape, p.pull, p.T) == (s, "stiff spring", 0.0)] for s in shapes}
     spans = {shape: max(ratios) / min(ratios) for shape, ratios in over.items()}
+    names, amplitude, shallow = ", ".join(shapes), AMPLITUDE * 1e6, SHALLOW * 1e6
+    deep, low, high = 500 * SHALLOW * 1e6, 0.25 * DEPTH * 1e6, 4 * DEPTH * 1e6
+    velocities = counted(len(points), "measured velocity")
+    same = number(spans.pop("flat punch") - 1, 1)
+    changes = listed(f"{span:.3g} ({shape})" for shape, span in spans.items())
+    S_stiff, S_heavy = laws.depth_sensitivity(stiff), laws.depth_sensitivity(heavy)
+    rigid_names = listed(rigid_shapes)
     return Part(
-        name="indentation",
-        title="Depth: what of v_c depends on it",
-        quote="However, it does not depend on absolute indentation, which permits easy generalization to more "
-        "realistic contact geometry. — Section 3",
-        range=f"{', '.join(shapes)}; an amplitude of {AMPLITUDE * 1e6:g} µm at depths from {SHALLOW * 1e6:.2g} to "
-        f"{500 * SHALLOW * 1e6:.0f} µm under a rigid pull, and from {0.25 * DEPTH * 1e6:g} to {4 * DEPTH * 1e6:g} µm "
-        f"under one and the same mass, spring and damper; {counted(len(points), 'measured velocity')}, "
-        "and slopes of the full-slip value.",
-        measured="It is the formula that does not contain the depth, not v_c: the stiffness in Eq. (15) is that at the "
-        "mean depth. Over a factor of 16 in depth, at the same amplitude and body (ω_0 = 1.7 ω), v_c of the flat punch "
-        f"stays the same to {number(spans.pop('flat punch') - 1, 1)}, and changes by a factor of "
-        + listed(f"{span:.3g} ({shape})" for shape, span in spans.items())
-        + ". The slope is d ln v_c/d ln u_z0 = S/n, n the power of the shape and S = Re[−zk/(q − zk)] with k = k_x,c, "
-        f"z = 1 + iωτ and q = mω² − k_x − i c_x ω: S = {laws.depth_sensitivity(stiff):.2g} for that body and "
-        f"{laws.depth_sensitivity(heavy):.2g} for a heavy one (ω_0 = 0.6 ω), elastic. It vanishes in three cases: "
-        f"under a rigid pull, for any shape, here {listed(rigid_shapes)} over a factor of 500 in depth and up to α = "
-        "0.95 at ωτ = 1 (a surface that comes back late ends this); for a flat punch that keeps contact; and at the"
-        " one depth "
-        "at which k_x,c = Re(q/z), where v_c has its minimum and changes only by the square of the change in depth.",
-        sentence="v_c does not depend on the depth for a rigid pull and for a flat punch that keeps contact; else as "
-        "much as the stiffness k_x,c(u_z0) in Eq. (15) does, so to use Eq. (15) one has to know the depth.",
+        "indentation",
+        **told(part, locals()),
         checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
         figures=(_depth_figure(points, effort), _slope_figure()),
         equations=(_EQUATION,),
@@ -156,9 +165,14 @@ def _minimum_checks() -> Checks:
 
 
 @figure("depth", 1, 2, size=(9.6, 4.2), sharey=True)
-def _depth_figure(fig, axes, points: list[Point], effort: str) -> str:
-    """Critical velocity over depth: constant for the flat punch, rising for curved shapes on the left, with a minimum
-    on the right.
+def _depth_figure(fig, axes, points: list[Point], effort: str):
+    """Critical velocity over depth: constant for the flat punch, rising for curved shapes on the left, with a
+    minimum on the right.
+
+    v_c over the mean depth at a fixed amplitude of {amplitude:g} µm under one and the same spring, mass and damper: Eq.
+    (15) with the stiffness at that depth (lines) and measured (points{later}). Eq. (15) is independent of the depth as
+    far as k_x,c is: for the flat punch, and for all shapes under a rigid pull (dashed). Below its resonance the body
+    amplifies and v_c grows with depth; a heavy body has one depth of least v_c, the same stiffness for every shape.
     """
     ratios = np.geomspace(0.1, 10, 60)
     for ax, T, pull in zip(axes, (0.0, 1.0), ("stiff spring", "soft spring"), strict=True):
@@ -176,20 +190,20 @@ def _depth_figure(fig, axes, points: list[Point], effort: str) -> str:
     axes[0].annotate("rigid pull", (190, 1.0), (0, -11), textcoords="offset points", ha="right", fontsize=9)
     axes[0].set_ylabel("$v_c$ over Eq. (1)")
     axes[0].legend(loc="upper left")
-    return (
-        f"v_c over the mean depth at a fixed amplitude of {AMPLITUDE * 1e6:g} µm under one and the same spring, mass "
-        "and damper: Eq. (15) with the stiffness at that depth (lines) and measured (points"
-        f"{'; the right panel has them in the full report' if effort == 'quick' else ''}). Eq. (15) is independent"
-        " of the depth as far as k_x,c is: for the flat punch, and for all "
-        "shapes under a rigid pull (dashed). Below its resonance the body amplifies and v_c grows with depth; a heavy "
-        "body has one depth of least v_c, the same stiffness for every shape."
-    )
+    return {
+        "amplitude": AMPLITUDE * 1e6,
+        "later": "; the right panel has them in the full report" if effort == "quick" else "",
+    }
 
 
 @figure("slope", size=(6.8, 4.2))
-def _slope_figure(fig, ax) -> str:
+def _slope_figure(fig, ax):
     """Sensitivity of the critical velocity to depth over the detuning of the body, with a pole-like swing for small
     damping.
+
+    How strongly v_c depends on the depth, S = d ln v_c/d ln k_x,c, over the state of the body without damper. At the
+    pole mω² = k_x (dotted) S = 1, beside the zero mω² = k_x + k_x,c of a nearly elastic contact it is largest, and far
+    from both it tends to 0, the rigid pull. Circles: no dependence to first order.
     """
     q = np.linspace(-4, 8, 1201)
     for colour, T in zip(COLOURS, (0.1, 0.3, 1.0, 3.0), strict=False):
@@ -201,8 +215,3 @@ def _slope_figure(fig, ax) -> str:
     ax.axvline(0, color="0.5", lw=0.8, ls=":")
     ax.set(xlabel=r"$(m\omega^2-k_x)/k_{x,c}$", ylabel=r"$S = n\,\mathrm{d}\ln v_c/\mathrm{d}\ln u_{z0}$", ylim=(-4, 4))
     ax.legend(loc="upper right")
-    return (
-        "How strongly v_c depends on the depth, S = d ln v_c/d ln k_x,c, over the state of the body without damper. At "
-        "the pole mω² = k_x (dotted) S = 1, beside the zero mω² = k_x + k_x,c of a nearly elastic contact it is "
-        "largest, and far from both it tends to 0, the rigid pull. Circles: no dependence to first order."
-    )

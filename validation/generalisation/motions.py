@@ -34,7 +34,7 @@ from validation.cases import BODY, DEPTH, LOOKS, OMEGA, POWERS, SHAPES, E, any_c
 from validation.figures import figure
 from validation.measured import TOLERANCE, Point, lost, measured
 from validation.measured import deviation as deviation_of
-from validation.report import Check, Checks, Figure, Part
+from validation.report import Check, Checks, Figure, Part, told
 
 NU = 0.5
 MATERIALS: dict[str, mdr.Material] = {
@@ -74,23 +74,32 @@ _ALL = (
 
 
 def part(effort: str) -> Part:
-    """Drives other than Eq. (3), from runs alone."""
+    """Drive: an oscillating load, a periodic depth
+
+    How: Drives other than Eq. (3), from runs alone.
+
+    Quote: [MDR provides a natural theoretical framework] for further generalizations to arbitrary contact geometries
+    and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3).
+
+    Range: {n_points} contacts measured from runs: {contacts}.
+
+    Measured: Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this is a
+    closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter even under a
+    rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and what leaves the formula
+    is the depth alone: for an elastic contact in second order of ΔF_z/F_z0, by (ΔF_z/F_z0)^2/2(n+1)^2. For periodic
+    depths v_c is the greatest slip velocity over the cycle, with every harmonic; a square-like drive has a v_c far
+    above that of its first harmonic.
+
+    Sentence: Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2| for small ΔF_z; for a periodic
+    depth v_c is the maximum of the same expression over the cycle.
+    """
     quick = effort == "quick"
     points = [_measured(*which) for which in progress(_grid(quick), "motions")]
+    n_points = len(points)
+    contacts = "; ".join(p.where for p in points) if quick else _ALL
     return Part(
-        name="motions",
-        title="Drive: an oscillating load, a periodic depth",
-        quote="[MDR provides a natural theoretical framework] for further generalizations to arbitrary contact"
-        " geometries and loading histories. — Section 3; the depth of the paper is u_z0 + Δu_z cos ωt, Eq. (3).",
-        range=f"{len(points)} contacts measured from runs: {'; '.join(p.where for p in points) if quick else _ALL}.",
-        measured="Under an oscillating load v_c is that of the depth which the load brings about. For small ΔF_z this"
-        " is a closed form, v_c = μ_0 ω ΔF_z |κ + K_z H|/|K_z − m_z ω^2|, in which shape, mean load and material enter"
-        " even under a rigid pull. Without mass the force on the body has a single harmonic at any amplitude, and what"
-        " leaves the formula is the depth alone: for an elastic contact in second order of ΔF_z/F_z0, by"
-        " (ΔF_z/F_z0)^2/2(n+1)^2. For periodic depths v_c is the greatest slip velocity over the cycle, with every"
-        " harmonic; a square-like drive has a v_c far above that of its first harmonic.",
-        sentence="Under an oscillating load Eq. (15) holds with Δu_z = ΔF_z/|K_z − m_z ω^2| for small ΔF_z; for a"
-        " periodic depth v_c is the maximum of the same expression over the cycle.",
+        "motions",
+        **told(part, locals()),
         checks=(*_measured_checks(points), *_equivalence_checks(quick), *_amplitude_checks()),
         figures=(_figure_of_loads(quick), *(() if quick else (_figure_of_series(),))),
     )
@@ -183,8 +192,13 @@ def _figure_of_loads(quick: bool) -> Figure:
     return figure("loads", 1, len(shown), size=(3.4 * len(shown), 3.6))(_loads)(shown, quick)
 
 
-def _loads(fig, axes, panels: Any, quick: bool) -> str:
-    """Panels of deviation in % over relative load amplitude for four shapes."""
+def _loads(fig, axes, panels: Any, quick: bool):
+    """Panels of deviation in % over relative load amplitude for four shapes.
+
+    Load-controlled drive: how far v_c at finite amplitude is from μ_0 ω ΔF_z |κ + K_z H|/|K_z|. The punch stays on it.
+    Elastic curved shapes leave it in second order, as their stiffness falls while the load is low: under a rigid pull
+    the more, the sharper the shape.{measured}
+    """
     shares = np.array([0.0, 0.3, 0.6, 0.9]) if quick else np.linspace(0, 0.9, 10)
     for ax, (pull, material, pulled) in zip(axes, panels, strict=True):
         for shape, (colour, marker) in LOOKS.items():
@@ -196,23 +210,23 @@ def _loads(fig, axes, panels: Any, quick: bool) -> str:
         ax.set(xlabel=r"$\Delta F_z/F_{z0}$", title=f"{pull}, {material}")
     axes[0].set_ylabel("full-slip $v_c$ over the formula, less 1 [%]")
     axes[0].legend(loc="upper left")
-    return (
-        "Load-controlled drive: how far v_c at finite amplitude is from μ_0 ω ΔF_z |κ + K_z H|/|K_z|. The punch"
-        " stays on it. Elastic curved shapes leave it in second order, as their stiffness falls while the load is"
-        " low: under a rigid pull the more, the sharper the shape."
-        + ("" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0.")
-    )
+    return {"measured": "" if quick else " Symbols: measured from runs at ΔF_z = 0.6 F_z0."}
 
 
 @figure("series", 1, 2, size=(8.8, 3.6))
-def _figure_of_series(fig, axes) -> str:
-    """Depth over a period for four drives, and their COF curves."""
+def _figure_of_series(fig, axes):
+    """Depth over a period for four drives, and their COF curves.
+
+    Periodic depths (left) and the friction of an elastic paraboloid under a rigid pull (right). Dotted lines: v_c of
+    the first harmonic alone. Steep fronts reduce friction up to velocities several times higher, but the reduction
+    there is slight: what matters for the COF is how long the contact is lightly pressed.
+    """
     phase = np.linspace(0, 1, 600)
     for (name, motion), colour in zip(PERIODIC.items(), ("C0", "C1", "C2", "C3"), strict=True):
         axes[0].plot(phase, motion.u_z(phase * 2 * np.pi / OMEGA) * 1e6, color=colour, label=name)
         case = contact("paraboloid", "elastic", motion)
         v_c = mdr.full_slip_critical_velocity(case)
-        first: Any = mdr.NormalOscillation(motion.u_z0, float(np.hypot(motion.cos[0], motion.sin[0])), OMEGA)
+        first = mdr.NormalOscillation(motion.u_z0, float(np.hypot(motion.cos[0], motion.sin[0])), OMEGA)
         alone = mdr.full_slip_critical_velocity(contact("paraboloid", "elastic", first))
         v = np.array([0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.1])
         cof = [mdr.slide(case, x * v_c, n_springs=96, steps_per_period=512).cof / case.mu_0 for x in v]
@@ -222,8 +236,3 @@ def _figure_of_series(fig, axes) -> str:
     axes[0].set(xlabel="time over period", ylabel="depth $u_z$ [µm]")
     axes[0].legend(loc="lower left")
     axes[1].set(xlabel="pulling velocity $v_0$ [mm/s]", ylabel=r"$\mu/\mu_0$", xlim=(0, 8))
-    return (
-        "Periodic depths (left) and the friction of an elastic paraboloid under a rigid pull (right). Dotted lines: v_c"
-        " of the first harmonic alone. Steep fronts reduce friction up to velocities several times higher, but the"
-        " reduction there is slight: what matters for the COF is how long the contact is lightly pressed."
-    )

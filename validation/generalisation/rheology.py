@@ -29,7 +29,7 @@ from mdr.tools.progress import progress
 from validation.cases import BODY, DEPTH, OMEGA, SHAPES, E, any_contact, shape_label
 from validation.figures import figure
 from validation.measured import TOLERANCE, Point, deviation, lost, measured
-from validation.report import Check, Checks, Equation, Part
+from validation.report import Check, Checks, Equation, Part, told
 from validation.words import counted, listed
 
 NU = 0.5
@@ -58,7 +58,25 @@ _EQUATION = Equation(
 
 
 def part(effort: str) -> Part:
-    """The closed form against runs: random materials, chosen ones measured, the motion in full slip."""
+    """Rheology: any linear material
+
+    How: The closed form against runs: random materials, chosen ones measured, the motion in full slip.
+
+    Quote: In the future, the critical velocity could also be considered for materials with more general rheology. The
+    Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3
+
+    Range: {n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf, with and
+    without a dashpot) under random bodies; {materials} ({names}), measured for {shape_names} at 1 % amplitude.
+
+    Measured: With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is for a
+    Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the limit of small
+    amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that relaxes within a period
+    stiffens the contact against the oscillation but not against the mean load, so that the static COF falls, and most
+    at frequencies where the arm still follows, ωτ_1 above one.
+
+    Sentence: Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is Eq.
+    (15) for a Kelvin material.
+    """
     quick = effort == "quick"
     n = 6 if quick else 50
     chosen = dict(list(MATERIALS.items())[1:2]) if quick else MATERIALS
@@ -67,21 +85,12 @@ def part(effort: str) -> Part:
     pairs = [(shape, name) for shape in shapes for name in chosen if shape == "flat punch" or "power" not in name]
     points = [_measured(*pair) for pair in progress(pairs, "rheology, measured")]
     checks = [*_side_checks(sides), *_measured_checks(points), *_motion_checks(chosen), *_limit_checks()]
+    materials = counted(len(chosen), "chosen material")
+    names = "; ".join(chosen)
+    shape_names = listed(shapes)
     return Part(
-        name="rheology",
-        title="Rheology: any linear material",
-        quote="In the future, the critical velocity could also be considered for materials with more general rheology."
-        " The Method of Dimensionality Reduction provides a natural theoretical framework for this … — Section 3",
-        range=f"{n} random Prony materials of one to four arms (ωτ_j from 0.01 to 100, moduli up to ten times E_inf,"
-        f" with and without a dashpot) under random bodies; {counted(len(chosen), 'chosen material')}"
-        f" ({'; '.join(chosen)}), measured for {listed(shapes)} at 1 % amplitude.",
-        measured="With K_z(ω) = 2aE*(ω) in the place of stiffness and damping, the formula is as exact as Eq. (15) is"
-        " for a Kelvin material: at any amplitude for a flat punch that keeps contact, and for other shapes as the"
-        " limit of small amplitude. Under a rigid pull the rheology drops out. Below v_c it does not: an arm that"
-        " relaxes within a period stiffens the contact against the oscillation but not against the mean load, so that"
-        " the static COF falls, and most at frequencies where the arm still follows, ωτ_1 above one.",
-        sentence="Any linear rheology with constant Poisson's ratio obeys v_c = μ_0 ω Δu_z |κ + K_z(ω) H(ω)|, which is"
-        " Eq. (15) for a Kelvin material.",
+        "rheology",
+        **told(part, locals()),
         checks=(*checks, *(() if quick else _amplitude_checks())),
         figures=(_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),))),
         equations=(_EQUATION,),
@@ -145,7 +154,7 @@ def _motion_checks(chosen: dict[str, mdr.Material]) -> Checks:
     """The marched motion of the body, and its force, against the harmonic that they must be."""
     for name, material in chosen.items():
         case = contact("flat punch", material, 0.05, BODY)
-        run: Any = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
+        run = mdr.slide(case, 3 * mdr.critical_velocity(case), steps_per_period=1024, record=1)
         turn = np.exp(1j * OMEGA * run.t)
         F_1 = complex(case.dynamic_stiffness(OMEGA)) * case.cycle.du_z
         y_1 = -case.mu_0 * F_1 * complex(case.pull.receptance(OMEGA))
@@ -188,8 +197,14 @@ def _amplitude_checks() -> Checks:
 
 
 @figure("curves", 1, 2, size=(8.6, 3.7), sharey=True)
-def _figure_of_curves(fig, axes) -> str:
-    """Two panels of COF curves, one for each relaxation time, that meet at velocity one."""
+def _figure_of_curves(fig, axes):
+    """Two panels of COF curves, one for each relaxation time, that meet at velocity one.
+
+    COF of a standard solid (E_1 = 3 E_inf, Δu_z/u_z0 = 0.15) under a rigid pull, for relaxation times from a tenth of
+    1/ω to a hundred times it. All curves end at Eq. (1), whatever the rheology. Slow arms (bright) never relax within
+    the period and multiply what the oscillation takes from friction: for the punch they end on the dotted curve, four
+    times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed.
+    """
     from matplotlib import colormaps
 
     times = (0.1, 0.5, 2.0, 10.0, 100.0)
@@ -209,17 +224,16 @@ def _figure_of_curves(fig, axes) -> str:
         ax.set(xlabel=r"$v_0/(\mu_0\kappa\omega\Delta u_z)$", title=shape_label(shape))
     axes[0].set_ylabel(r"$\mu/\mu_0$")
     axes[0].legend(loc="lower right")
-    return (
-        "COF of a standard solid (E_1 = 3 E_inf, Δu_z/u_z0 = 0.15) under a rigid pull, for relaxation times from a"
-        " tenth of 1/ω to a hundred times it. All curves end at Eq. (1), whatever the rheology. Slow arms (bright)"
-        " never relax within the period and multiply what the oscillation takes from friction: for the punch they end"
-        " on the dotted curve, four times the elastic deficit; a fast arm (dark) is nearly the long-time body, dashed."
-    )
 
 
 @figure("velocities", 1, 2, size=(8.6, 3.6))
-def _figure_of_velocities(fig, axes, quick: bool) -> str:
-    """Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body."""
+def _figure_of_velocities(fig, axes, quick: bool):
+    """Two panels of critical velocity over relaxation time, with curves of a standard solid and a Kelvin body.
+
+    Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that of the
+    long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the same loss at
+    low frequency (chain line) has no such end and rises without bound.
+    """
     times = np.geomspace(1e-2, 1e2, 121)
     solid: list[Any] = [mdr.StandardLinearSolid(E, RATIO * E, t / OMEGA, NU) for t in times]
     kelvin: list[Any] = [mdr.KelvinVoigt(E, NU, RATIO * t / OMEGA) for t in times]
@@ -241,8 +255,3 @@ def _figure_of_velocities(fig, axes, quick: bool) -> str:
         ax.set(xlabel=r"$\omega\tau_1$", title=title, ylim=(0, min(ax.get_ylim()[1], 6)))
     axes[0].set_ylabel(r"$v_c/(\mu_0\kappa\omega\Delta u_z)$")
     axes[0].legend(loc="upper left")
-    return (
-        "Critical velocity of a punch under a body on a standard solid, over the relaxation time of its arm: from that"
-        " of the long-time modulus (dashed) to that of the glassy one (dotted). The Kelvin body of the paper with the"
-        " same loss at low frequency (chain line) has no such end and rises without bound."
-    )

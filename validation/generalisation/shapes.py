@@ -30,7 +30,7 @@ from validation.cases import BODY, DEPTH, LOOKS, POWERS, SHAPES, contact, loss, 
 from validation.figures import figure, key, shape_keys, ticks
 from validation.measured import TOLERANCE, Point, measured, power, slope_at_zero, worst
 from validation.measured import deviation as deviation_of
-from validation.report import Check, Checks, Part
+from validation.report import Check, Checks, Part, told
 from validation.words import counted, listed, number, ranged
 
 PULLS: dict[str, dict[str, Any]] = {
@@ -113,32 +113,42 @@ def first_order_map(effort: str) -> tuple[Array, Array, Array]:
 
 
 def part(effort: str) -> Part:
-    """Measure the grid, fit the powers, map the first order."""
+    """Shape: a punch, a cone, a paraboloid and r^4
+
+    How: Measure the grid, fit the powers, map the first order.
+
+    Range: {names}; α = {alphas}; elastic and ωτ = 1; depths {depths} µm under the same spring, mass and damper; rigid
+    pull, ω_0 = 1.7 ω and 0.6 ω; {velocities}. First order in α over ω_0/ω = {SPAN[0]:g} … {SPAN[1]:g} and ωτ =
+    {LOSSES[0]:g} … {LOSSES[1]:g}
+
+    Measured: Rigid pull: Eq. (1) in all of {measurements} ({tested}), to {off:.1e}; each of these contacts is closed at
+    the moment of fastest approach. Spring pull: Eq. (15) for the flat punch; for curved shapes it is the limit of small
+    amplitude. For small α the deviation is proportional to α times the exponent of the stiffness k_zc ∝ d^{{1/n}}, with
+    one factor for all shapes (elastic and undamped: to α^2); for large α it turns back and may change its sign.
+    Farthest off: {far_percent:+.1f} % ({far.where}); at α = 0.02: {small_percent:+.2f} % ({small.where}). The full-slip
+    condition with all harmonics gives the measured value in all of them, to {miss:.1e}.
+
+    Sentence: For a curved shape under a body the error of Eq. (15) is proportional to α for small α, and to the
+    exponent with which the stiffness depends on depth.
+    """
     points = [measure(*knobs) for knobs in progress(grid(effort), "shapes")]
     fields = first_order_map(effort)
     rigid = [p for p in points if p.pull == "rigid pull"]
     springs = [p for p in points if p.pull != "rigid pull" and p.shape != "flat punch"]
     far = max(springs, key=lambda p: abs(p.deviation))
     small = max((p for p in springs if p.alpha == 0.02), key=lambda p: abs(p.deviation))
+    names = listed(shape for shape in SHAPES if shape in {p.shape for p in points})
+    alphas = listed(sorted({p.alpha for p in points}))
+    depths = listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))
+    velocities = counted(len(points), "measured velocity")
+    measurements = counted(len(rigid), "measurement")
+    tested = _tested(rigid)
+    off = max(abs(p.deviation) for p in rigid)
+    far_percent = 100 * far.deviation
+    small_percent, miss = 100 * small.deviation, max(abs(p.miss) for p in points)
     return Part(
-        name="shapes",
-        title="Shape: a punch, a cone, a paraboloid and r^4",
-        quote="",
-        range=f"{listed(shape for shape in SHAPES if shape in {p.shape for p in points})}; α ="
-        f" {listed(sorted({p.alpha for p in points}))}; elastic and ωτ = 1; depths"
-        f" {listed(d * 1e6 for d in sorted({p.u_z0 for p in points}))} µm under the same spring, mass and damper; rigid"
-        f" pull, ω_0 = 1.7 ω and 0.6 ω; {counted(len(points), 'measured velocity')}. First order in α over ω_0/ω ="
-        f" {SPAN[0]:g} … {SPAN[1]:g} and ωτ = {LOSSES[0]:g} … {LOSSES[1]:g}",
-        measured=f"Rigid pull: Eq. (1) in all of {counted(len(rigid), 'measurement')} ({_tested(rigid)}), to"
-        f" {max(abs(p.deviation) for p in rigid):.1e}; each of these contacts is closed at the moment of fastest"
-        " approach. Spring pull: Eq. (15) for the flat punch; for curved shapes it is the limit of small amplitude. For"
-        " small α the deviation is proportional to α times the exponent of the stiffness k_zc ∝ d^{1/n}, with one"
-        " factor for all shapes (elastic and undamped: to α^2); for large α it turns back and may change its sign."
-        f" Farthest off: {100 * far.deviation:+.1f} % ({far.where}); at α = 0.02: {100 * small.deviation:+.2f} %"
-        f" ({small.where}). The full-slip condition with all harmonics gives the measured value in all of them, to"
-        f" {max(abs(p.miss) for p in points):.1e}.",
-        sentence="For a curved shape under a body the error of Eq. (15) is proportional to α for small α, and to the "
-        "exponent with which the stiffness depends on depth.",
+        "shapes",
+        **told(part, locals()),
         checks=(*_measured_checks(points), *_power_checks(), *_map_checks()),
         figures=(_glance(points, effort), _powers(effort), _map_figure(*fields)),
     )
@@ -200,9 +210,15 @@ def _map_checks() -> Checks:
 
 
 @figure("glance", 1, 3, size=(9.6, 4.6), sharey=True)
-def _glance(fig, axes, points: list[Point], effort: str) -> str:
+def _glance(fig, axes, points: list[Point], effort: str):
     """Three panels of measured critical velocity over Eq. (15) against amplitude: all on one for a rigid pull, falling
     away from one for curved shapes under a spring pull, the cone rising again at large amplitude.
+
+    Points: critical velocities measured with arrays of springs, over Eq. (15) with the contact stiffness at the mean
+    depth. Lines: the full-slip condition. Under a rigid pull ({rigid}; points of one amplitude side by side) all lie
+    on 1. Under a spring and a mass (ω_0 = 1.7 ω, damper 5 % of critical, {depth:g} µm deep) only the flat punch does;
+    the other lines tend to 1 in proportion to α as it becomes small, and for large α that of the cone turns back and
+    crosses 1.{springs}
     """
     hollow = {"mfc": "none", "mew": 1.6, "ms": 7}
     alphas = np.geomspace(0.01, 0.7, 30 if effort == "quick" else 80)
@@ -223,19 +239,19 @@ def _glance(fig, axes, points: list[Point], effort: str) -> str:
         ticks(ax.xaxis, 0.01, 0.03, 0.1, 0.3)
     axes[0].set_ylabel(r"measured $v_c$ over Eq. (15)")
     fig.legend(handles=shape_keys(**hollow), loc="outside lower center", ncols=4)
-    return (
-        "Points: critical velocities measured with arrays of springs, over Eq. (15) with the contact "
-        "stiffness at the mean depth. Lines: the full-slip condition. Under a rigid pull "
-        f"({_tested(rigid)}; points of one amplitude side by side) all lie on 1. Under a spring and a mass (ω_0 = "
-        f"1.7 ω, damper 5 % of critical, {DEPTH * 1e6:g} µm deep) only the flat punch does; the other lines tend to "
-        "1 in proportion to α as it becomes small, and for large α that of the cone turns back and crosses 1."
-        + (f" Measured under a spring were {_tested(springs)}, not all combined." if effort == "quick" else "")
-    )
+    few = f" Measured under a spring were {_tested(springs)}, not all combined."
+    return {"rigid": _tested(rigid), "depth": DEPTH * 1e6, "springs": few if effort == "quick" else ""}
 
 
 @figure("powers", size=(6.8, 4.6))
-def _powers(fig, ax, effort: str) -> str:
-    """Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two."""
+def _powers(fig, ax, effort: str):
+    """Log-log plot of the deviation from Eq. (15) over amplitude, with slopes one and two.
+
+    How fast Eq. (15) becomes exact under a spring pull (ω_0 = 1.7 ω): with α^2 where nothing dissipates (dotted), with
+    α as soon as the contact or the system is damped. For small α the shapes then differ by the exponent of their
+    stiffness, {elastic} (dashed) and {kelvin} (full); undamped by more, {undamped}. The dip of the cone is a change of
+    sign.
+    """
     alphas = np.r_[np.geomspace(1e-3, 0.1, 9), np.linspace(0.11, 0.6, 20 if effort == "quick" else 50)]
     kinds = ((0.0, False, ":"), (0.0, True, "--"), (1.0, True, "-"))
     for shape in list(SHAPES)[1:]:
@@ -248,12 +264,7 @@ def _powers(fig, ax, effort: str) -> str:
     for T, damped, line in kinds:
         handles.append(key(f"{loss_label(T)}, {'damper' if damped else 'undamped'}", color="0.3", ls=line))
     ax.legend(handles=handles, loc="lower right", ncols=2)
-    return (
-        "How fast Eq. (15) becomes exact under a spring pull (ω_0 = 1.7 ω): with α^2 where nothing dissipates "
-        "(dotted), with α as soon as the contact or the system is damped. For small α the shapes then differ by the "
-        f"exponent of their stiffness, {_ratios(0.0, True)} (dashed) and {_ratios(1.0, True)} (full); undamped by "
-        f"more, {_ratios(0.0, False)}. The dip of the cone is a change of sign."
-    )
+    return {"elastic": _ratios(0.0, True), "kelvin": _ratios(1.0, True), "undamped": _ratios(0.0, False)}
 
 
 def _ratios(T: float, damped: bool) -> str:
@@ -263,9 +274,16 @@ def _ratios(T: float, damped: bool) -> str:
 
 
 @figure("map", size=(7.6, 4.4))
-def _map_figure(fig, ax, ratios: Array, losses: Array, C: Array) -> str:
-    """Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: dark for slow
-    materials and near twice the frequency.
+def _map_figure(fig, ax, ratios: Array, losses: Array, C: Array):
+    """Map of the amplitude at which Eq. (15) is off by 1 %, over natural frequency and relaxation time: dark for
+    slow materials and near twice the frequency.
+
+    How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone (n =
+    1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four times for
+    r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies near ω_0 = 2ω,
+    whose second harmonic is of first order in α, are the worst: α = {least} at ω_0 = {ratio:.2g} ω, ωτ = {loss:.2g}.
+    Fast materials under heavy bodies, ω_0 < ω, are the best, except for a stripe where Eq. (15) itself nearly vanishes,
+    near ω_0 = 0.8 ω. Along thin bright lines C changes its sign, and the next order decides.
     """
     from matplotlib.colors import LogNorm
 
@@ -276,12 +294,4 @@ def _map_figure(fig, ax, ratios: Array, losses: Array, C: Array) -> str:
     ax.grid(False)
     fig.colorbar(mesh, ax=ax, extend="both", label="amplitude at which Eq. (15) is off by 1 %, cone")
     row, column = np.unravel_index(np.argmin(reach), reach.shape)
-    return (
-        "How small is small? The amplitude Δu_z/u_z0 at which the leading error of Eq. (15), C α/n, is 1 %, for a cone"
-        " (n = 1) under a spring of k_x = 1.5 k_x,c with a damper of 5 % of critical; twice that for a paraboloid, four"
-        " times for r^4, as C is the same for all shapes. White lines: 0.001, 0.01 and 0.1. Slow materials and bodies"
-        f" near ω_0 = 2ω, whose second harmonic is of first order in α, are the worst: α = {number(reach[row, column])}"
-        f" at ω_0 = {ratios[column]:.2g} ω, ωτ = {losses[row]:.2g}. Fast materials under heavy bodies, ω_0 < ω, are the"
-        " best, except for a stripe where Eq. (15) itself nearly vanishes, near ω_0 = 0.8 ω. Along thin bright lines C"
-        " changes its sign, and the next order decides."
-    )
+    return {"least": number(reach[row, column]), "ratio": ratios[column], "loss": losses[row]}

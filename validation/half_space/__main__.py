@@ -1,7 +1,5 @@
 """`python -m validation.half_space case.toml --v-0 0.001`: the COF of a case in three dimensions, with its errors."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

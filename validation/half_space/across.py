@@ -4,17 +4,15 @@ Springs are run to convergence; three dimensions carry their own errors of grid,
 `mdr.half_space.curve` states them, or, on annuli, by half of the annuli and half of the steps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 import mdr
 from mdr.half_space.run import SETTLED
 from mdr.tools.arrays import Array
-from validation.cases import DEPTH, RADIUS, SHAPES, contact
+from validation.cases import DEPTH, RADIUS, SHAPES, reach, shaken
 from validation.half_space.annuli import Found, friction, pressure
 
 CYCLES = 400  #: at most, on annuli
@@ -36,17 +34,22 @@ class Point:
     @property
     def case(self) -> mdr.SlidingContact:
         """The case of the library."""
-        case = contact(self.shape, self.alpha or 0.1, mu_0=self.mu_0, nu=self.nu)
-        unit = case.mu_0 * case.material.mindlin_ratio * DEPTH
-        oscillation = case.oscillation if self.alpha else mdr.ConstantDepth(DEPTH)
-        shake = mdr.InPlaneOscillation(case.omega, du_y=self.eta * unit, phi_y=self.phi)
-        return replace(case, oscillation=oscillation, shake=shake)
+        return shaken(self.shape, self.alpha, eta=self.eta, phi_y=self.phi, mu_0=self.mu_0, nu=self.nu)
+
+    @property
+    def place(self) -> tuple[str, float, float]:
+        """By what contacts at a constant depth are told apart, whatever nu, mu_0 and coupling."""
+        return self.shape, self.eta, self.v
+
+    @property
+    def plain(self) -> bool:
+        """At a constant depth, without coupling."""
+        return not self.coupled and not self.alpha
 
     @property
     def v_0(self) -> float:
         """Pulling velocity [m/s]."""
-        case = self.case
-        return self.v * case.mu_0 * case.material.mindlin_ratio * case.omega * DEPTH
+        return self.v * self.case.omega * reach(self.case)
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,6 @@ The displacement of a uniformly loaded disc is Boussinesq's, by complete ellipti
 difference of two discs.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ All on a half-space of E* = 1 and cells over a square around a contact of radius
 through cells: its radius on the grid is that of a disc of the same area.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache

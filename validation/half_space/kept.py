@@ -1,7 +1,5 @@
 """Rows of dataclasses kept as CSV, one file a table, with what made them in its head, and read again."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass

@@ -11,8 +11,6 @@ makes mu_0 kappa d' of it everywhere and adds 2 |beta|/pi R(r/a) d' at the trail
 here friction's own doing on the pressure, and between the two directions, is included.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

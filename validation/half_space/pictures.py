@@ -1,7 +1,5 @@
 """The contact seen from above: what sticks, what slips, and the way it slips."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

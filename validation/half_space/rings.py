@@ -25,8 +25,6 @@ Goodman's approximation (J. Appl. Mech. 29 (1962) 515), phi = 1 and c has a clos
 phi and psi are linear between nodes at t = tanh(xi): in xi the distance between two nodes is exact, close to 1 as well.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import ellipkm1

@@ -3,8 +3,6 @@
 Implicit, of first order in the step, in plain NumPy; shares nothing with the library's march.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

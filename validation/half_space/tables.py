@@ -8,8 +8,6 @@ A contact is marched from its highest velocity down, each velocity from the end 
 is near, and few periods suffice.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace

@@ -3,8 +3,7 @@
 import base64
 import html
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
 
 from validation.formula import mathml
 from validation.report import Check, Claim, Equation, Figure, Part
@@ -20,20 +19,17 @@ def group_of(title: str, told: str, claims: Sequence[Claim], above: Sequence[Fig
 
 def _section(claim: Claim, above: Sequence[Figure]) -> str:
     """One claim, folded to a line; what was found, quote, range, equations; then figures and checks, or its parts."""
-    held = "yes" if claim.held else "no"
-    line = (
-        f"<summary><h3>{markup(claim.title)}</h3><span class=verdict><span class={kind_of(claim)}>"
-        f"{markup(claim.verdict)}</span></span> <span class={held}>{claim.n_held}/{len(claim.checks)}</span></summary>"
-    )
     moved = len(_shown(claim, above)) < len(claim.figures)
     link = ' <a href="#glance">Its main figure opens this page.</a>' if moved else ""
+    parts = (_part(claim, part, above) for part in claim.parts)
     return "\n".join(
         (
-            f'<details class=claim id="{claim.name}"{"" if claim.held else " open"}>{line}',
+            f'<details class=claim id="{claim.name}"{"" if claim.held else " open"}><summary><h3>{markup(claim.title)}'
+            f"</h3><span class=verdict><span class={kind_of(claim)}>{markup(claim.verdict)}</span></span> <span class="
+            f"{'yes' if claim.held else 'no'}>{claim.n_held}/{len(claim.checks)}</span></summary>",
             f"<p class=sentence>{markup(claim.sentence)}{link}</p>",
             *_words(claim),
-            *(_part(claim, part, above) for part in claim.parts),
-            *(() if claim.parts else _evidence(claim, claim, above)),
+            *(parts if claim.parts else _evidence(claim, claim, above)),
             "</details>",
         )
     )
@@ -61,7 +57,7 @@ def _evidence(claim: Claim, told: Claim | Part, above: Sequence[Figure]) -> Iter
     yield from (figure_of(claim, figure) for figure in _shown(told, above))
     opened = "" if n_held == len(told.checks) else " open"
     yield f"<details{opened}><summary>{count_of(n_held, len(told.checks))}</summary>"
-    yield _table("checks", ("Check", "Got", "Expected", "Tolerance", "Held", "Why"), told.checks, _check_row)
+    yield _table(told.checks)
     yield "</details>"
 
 
@@ -69,22 +65,24 @@ def _shown(told: Claim | Part, above: Sequence[Figure]) -> tuple[Figure, ...]:
     return tuple(figure for figure in told.figures if all(figure is not other for other in above))
 
 
-def _check_row(check: Check) -> tuple[str, ...]:
+def _table(checks: Iterable[Check]) -> str:
+    """Set a table whose cells carry their heading, so that a narrow screen can stack them."""
+    rows = [zip(_HEAD, _row(check), strict=True) for check in checks]
+    cells = ["".join(f'<td data-label="{head}">{cell}</td>' for head, cell in row) for row in rows]
+    heading = "".join(f"<th scope=col>{head}</th>" for head in _HEAD)
+    body = "\n".join(f"<tr>{row}</tr>" for row in cells)
+    return f"<table class=checks><thead><tr>{heading}</tr></thead><tbody>\n{body}\n</tbody></table>"
+
+
+_HEAD = ("Check", "Got", "Expected", "Tolerance", "Held", "Why")
+
+
+def _row(check: Check) -> tuple[str, ...]:
     sign = {"within": "", "at most": "≤ ", "at least": "≥ "}[check.side]
     numbers = (check.got, check.expected, check.tolerance)
     got, expected, tolerance = (number(value, check.tolerance) for value in numbers)
     held = "<span class=yes>✓</span>" if check.held else "<span class=no>✗</span>"
     return markup(check.name), got, sign + expected, "–" if sign else tolerance, held, markup(check.why)
-
-
-def _table(kind: str, head: Sequence[str], items: Iterable[Any], row: Callable[[Any], tuple[str, ...]]) -> str:
-    """Set a table whose cells carry their heading, so that a narrow screen can stack them."""
-    rows = [
-        "".join(f'<td data-label="{h}">{cell}</td>' for h, cell in zip(head, row(item), strict=True)) for item in items
-    ]
-    heading = "".join(f"<th scope=col>{h}</th>" for h in head)
-    body = "\n".join(f"<tr>{cells}</tr>" for cells in rows)
-    return f"<table class={kind}><thead><tr>{heading}</tr></thead><tbody>\n{body}\n</tbody></table>"
 
 
 def figure_of(claim: Claim, figure: Figure) -> str:

@@ -7,8 +7,6 @@ The second form asks how much faster this checkout is than another one, in what 
 ratios of times taken in turn in one run, medians with the least and the greatest; absolute times are the machine's.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

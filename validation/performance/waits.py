@@ -4,8 +4,6 @@
 both in turn for one task after the other. So it knows public names alone, and no other file of this folder.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -31,7 +29,7 @@ def _case(shape: str, material: Any, alpha: float, body: tuple[float, float, flo
         "cone": mdr.Cone(theta=math.atan(2 * DEPTH / (math.pi * RADIUS))),
         "paraboloid": mdr.Paraboloid(R=RADIUS**2 / DEPTH),
     }[shape]
-    pull: Any = mdr.RigidPull()
+    pull = mdr.RigidPull()
     if body is not None:
         k, ratio, damping = body
         k_x = k * 2 * material.G_star * RADIUS
@@ -166,7 +164,7 @@ class Checkout:
         self.process.stdin.flush()
         return float(self._answer())
 
-    def __enter__(self) -> Checkout:
+    def __enter__(self) -> "Checkout":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -4,20 +4,16 @@ All energies are over mu_0 F_N v_0 in a period, what sliding without vibration t
 1 - COF/mu_0, over the work of the oscillator.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 import mdr
-from mdr.plots import COLOURS
 from mdr.tools.arrays import Array
-from validation.cases import BODY, DEPTH, OMEGA, contact, loss
-from validation.figures import figure
-from validation.report import Check, Checks, Part
+from validation.cases import BODY, OMEGA, contact, loss, reach, shaken
+from validation.figures import COLOURS, figure
+from validation.report import Check, Checks, Part, told
 
 MU_0 = 0.5
 RATE = 0.3  #: v_0 over mu_0 kappa omega u_z0
@@ -38,7 +34,25 @@ class Account(NamedTuple):
 
 
 def part(effort: str) -> Part:
-    """Accounts of the directions over their amplitudes."""
+    """Energy
+
+    How: Accounts of the directions over their amplitudes.
+
+    Range: {names}, elastic and ωτ = {times} (and a body), v_0 = {RATE:g} μ_0 κ ω u_z0; amplitudes that lower friction
+    by up to {most:.2f} of μ_0.
+
+    Measured: Elastic: a normal oscillation supplies no work in the mean, and all dissipation falls with friction.
+    Along, the oscillator supplies exactly what the pull is spared, as long as no spring slips back: each has its v_0 of
+    slip, at μ_0 times its load. Where springs slip back, so with large amplitudes and at the edge of curved faces, more
+    is dissipated than without vibration. Across more always is, as the way of slip is longer. So the order normal,
+    along, across holds for elastic contacts. On a viscous one the normal oscillation works on the dashpots of all
+    springs. From ωτ of about 0.1 on it takes more than one along, and with ωτ = 1 more than one across: to lower the
+    friction of a punch by {LESS:g} of μ_0 takes {rubber[normal]:.1f} of what sliding takes, along {rubber[along]:.2f},
+    across {rubber[across]:.1f}.
+
+    Sentence: Elastic: normal vibration takes no power, along what the pull is spared, across more. With ωτ = 1 the
+    order is along, across, normal.
+    """
     quick = effort == "quick"
     shapes = ("flat punch",) if quick else ("flat punch", "paraboloid")
     found = {(shape, T, way): curve(shape, T, way) for shape in shapes for T in (0.0, 1.0) for way in WAYS}
@@ -46,22 +60,10 @@ def part(effort: str) -> Part:
     most = max(one.lowered for accounts in found.values() for one in accounts)
     at = {key: cost(one) for key, one in found.items()}
     rubber = {way: at["flat punch", 1.0, way] for way in WAYS}
+    names, times = " and ".join(shapes), ", ".join(f"{T:g}" for T in TIMES[1:])
     return Part(
-        name="energy",
-        title="Energy",
-        quote="",
-        range=f"{' and '.join(shapes)}, elastic and ωτ = {', '.join(f'{T:g}' for T in TIMES[1:])} (and a body), v_0 ="
-        f" {RATE:g} μ_0 κ ω u_z0; amplitudes that lower friction by up to {most:.2f} of μ_0.",
-        measured="Elastic: a normal oscillation supplies no work in the mean, and all dissipation falls with friction."
-        " Along, the oscillator supplies exactly what the pull is spared, as long as no spring slips back: each has its"
-        " v_0 of slip, at μ_0 times its load. Where springs slip back, so with large amplitudes and at the edge of"
-        " curved faces, more is dissipated than without vibration. Across more always is, as the way of slip is longer."
-        " So the order normal, along, across holds for elastic contacts. On a viscous one the normal oscillation works"
-        " on the dashpots of all springs. From ωτ of about 0.1 on it takes more than one along, and with ωτ = 1 more"
-        f" than one across: to lower the friction of a punch by {LESS:g} of μ_0 takes {rubber['normal']:.1f} of what"
-        f" sliding takes, along {rubber['along']:.2f}, across {rubber['across']:.1f}.",
-        sentence="Elastic: normal vibration takes no power, along what the pull is spared, across more. With ωτ = 1"
-        " the order is along, across, normal.",
+        "energy",
+        **told(part, locals()),
         checks=(*_elastic_checks(found), *_body_checks(), *_order_checks(at)),
         figures=(_figure(found),),
     )
@@ -69,12 +71,11 @@ def part(effort: str) -> Part:
 
 def account(shape: str, T: float, way: str, size: float, **body: float) -> Account:
     """A contact vibrated one way, by this share of u_z0, or of mu_0 kappa u_z0."""
-    case = contact(shape, size if way == "normal" else 0.1, T, **body)
-    unit = MU_0 * case.material.mindlin_ratio * DEPTH
-    if way != "normal":
-        du = {"along": {"du_x": size * unit}, "across": {"du_y": size * unit}}[way]
-        case = replace(case, oscillation=mdr.ConstantDepth(DEPTH), shake=mdr.InPlaneOscillation(OMEGA, **du))
-    run = mdr.slide(case, RATE * OMEGA * unit, accuracy=3e-4)
+    if way == "normal":
+        case = contact(shape, size, T, **body)
+    else:
+        case = shaken(shape, 0.0, T=T, **{{"along": "chi", "across": "eta"}[way]: size}, **body)
+    run = mdr.slide(case, RATE * OMEGA * reach(case), accuracy=3e-4)
     spent, without = run.energy_balance, MU_0 * run.mean_F_z * run.v_0 * 2 * np.pi / OMEGA
     works = spent.pull_work, spent.normal_work + spent.shake_work, spent.lost
     return Account(1 - run.cof / MU_0, *(one / without for one in works), run.least_slip / run.v_0)
@@ -94,9 +95,8 @@ def cost(accounts: Sequence[Account]) -> float:
 def _elastic_checks(found: dict[tuple[str, float, str], list[Account]]) -> Checks:
     for (shape, T, way), accounts in found.items():
         rising = np.diff([one.lowered for one in accounts]).min()
-        yield Check.at_least(
-            f"least gain by a larger amplitude: {way}, {shape}, {loss(T)}", rising, 0.0, "none is lost"
-        )
+        where = f"{way}, {shape}, {loss(T)}"
+        yield Check.at_least(f"least gain by a larger amplitude: {where}", rising, 0.0, "none is lost")
         if T > 0:
             continue
         if way == "normal":
@@ -148,8 +148,13 @@ def _order_checks(at: dict[tuple[str, float, str], float]) -> Checks:
 
 
 @figure("power", 1, 2, (10, 4.2), sharex=True)
-def _figure(fig, panels, found) -> str:  # type: ignore[no-untyped-def]
-    """Two panels, work of the oscillator over the share of friction that is lowered: elastic, and with dashpots."""
+def _figure(fig, panels, found):
+    """Two panels, work of the oscillator over the share of friction that is lowered: elastic, and with dashpots.
+
+    What it costs to lower friction, at v_0 = {rate:g} μ_0 κ ω u_z0; full lines flat punch, broken paraboloid. Left:
+    elastic, where a normal oscillation is free and one along takes what the pull is spared. Right: with ωτ = 1 a normal
+    oscillation takes most, and one along least.
+    """
     for ax, T in zip(panels, (0.0, 1.0), strict=True):
         for way, colour in zip(WAYS, COLOURS, strict=False):
             for shape, line in (("flat punch", "-"), ("paraboloid", "--")):
@@ -162,8 +167,4 @@ def _figure(fig, panels, found) -> str:  # type: ignore[no-untyped-def]
         ax.set(title=loss(T), xlabel=r"friction lowered, $1 - \mu/\mu_0$", xlim=(0, 1), ylim=(-0.1, 4))
     panels[0].set_ylabel(r"work of the oscillator over $\mu_0F_Nv_0T$")
     panels[0].legend()
-    return (
-        f"What it costs to lower friction, at v_0 = {RATE:g} μ_0 κ ω u_z0; full lines flat punch, broken paraboloid."
-        " Left: elastic, where a normal oscillation is free and one along takes what the pull is spared. Right: with"
-        " ωτ = 1 a normal oscillation takes most, and one along least."
-    )
+    return {"rate": RATE}

@@ -1,30 +1,32 @@
 """Friction in full slip, Eq. (12) of the author's later paper: normal and longitudinal oscillation leave mu_0."""
 
-from __future__ import annotations
-
-from dataclasses import replace
 from itertools import product
 
 import mdr
 from mdr import laws
-from validation.cases import BODY, DEPTH, OMEGA, contact, loss, shaken
-from validation.report import Check, Checks, Part
+from validation.cases import BODY, OMEGA, contact, loss, shaken
+from validation.report import Check, Checks, Part, told
 
 FAST = 1.05  #: of the full-slip critical velocity
 
 
 def part(effort: str) -> Part:
-    """Runs above the critical velocity, and fast ones across."""
+    """Full slip
+
+    How: Runs above the critical velocity, and fast ones across.
+
+    Range: Flat punch and paraboloid, elastic and ωτ = 1, rigid pull and a body; normal and longitudinal oscillation, at
+    {FAST:g} v_c of full slip. Elastic, rigid pull: transverse, at 20 and 40 ω Δu_y.
+
+    Measured: Where all springs slip forward all the time, each force is μ_0 times its own normal force, whatever moves:
+    μ_0 is left under a normal and a longitudinal oscillation. Across, the direction of slip turns, and 1 − μ/μ_0 falls
+    like 1/v_0^2.
+
+    Sentence: (12) holds: full slip leaves μ_0 for a normal and a longitudinal oscillation; across it never does.
+    """
     return Part(
-        name="full-slip",
-        title="Full slip",
-        quote="",
-        range="Flat punch and paraboloid, elastic and ωτ = 1, rigid pull and a body; normal and longitudinal"
-        f" oscillation, at {FAST:g} v_c of full slip. Elastic, rigid pull: transverse, at 20 and 40 ω Δu_y.",
-        measured="Where all springs slip forward all the time, each force is μ_0 times its own normal force, whatever"
-        " moves: μ_0 is left under a normal and a longitudinal oscillation. Across, the direction of slip turns, and"
-        " 1 − μ/μ_0 falls like 1/v_0^2.",
-        sentence="(12) holds: full slip leaves μ_0 for a normal and a longitudinal oscillation; across it never does.",
+        "full-slip",
+        **told(part, locals()),
         checks=tuple(_checks(effort == "quick")),
     )
 
@@ -38,13 +40,9 @@ def _checks(quick: bool) -> Checks:
             yield Check(f"(12): COF/μ_0 at {FAST:g} v_c, {where}", above, 1.0, 1e-9, "all springs slip")
             yield Check.at_most(f"COF/μ_0 at half of v_c, {where}", below, 0.99, "so the former is no triviality")
     for shape in ("flat punch", "paraboloid"):
-        case = contact(shape, 0.1)
-        reach = 0.5 * case.material.mindlin_ratio * DEPTH
-        shake = mdr.InPlaneOscillation(OMEGA, du_y=0.4 * reach)
-        case = replace(case, oscillation=mdr.ConstantDepth(DEPTH), shake=shake)
-        lost = []
+        case, lost = shaken(shape, 0.0, eta=0.4), []
         for fast in (20, 40):
-            v_0 = fast * OMEGA * 0.4 * reach
+            v_0 = fast * OMEGA * case.shake.du_y
             lost.append(1 - mdr.slide(case, v_0, accuracy=1e-8).cof / 0.5)
             name = f"across: 1 − COF/μ_0 at v_0 = {fast} ω Δu_y over its law, {shape}"
             yield Check(name, lost[-1] / laws.lost_across(case, v_0), 1.0, 1 / fast**2, "the next order")

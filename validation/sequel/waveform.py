@@ -4,15 +4,13 @@ Symbols: Psi lost friction over that at rest, beta = 2 pi v_0/(mu_0 kappa omega 
 from them, and the steepest waveforms, have a claim of their own (validation/waveforms.py).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
 
 from mdr import laws
 from mdr.tools.arrays import Array
-from validation.report import Check, Checks, Part
+from validation.report import Check, Checks, Part, told
 
 BETA = np.array([0.2, 0.7, 1.5, 3.0, 5.0])
 EXACT = "both are closed forms"
@@ -25,18 +23,23 @@ STATED: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array], floa
 
 
 def part(effort: str) -> Part:
-    """The closed form of any waveform beside those that are stated."""
+    """Waveforms
+
+    How: The closed form of any waveform beside those that are stated.
+
+    Range: Flat punch, elastic, rigid pull, contact kept; saws, square, sine, and pulses of a width from 0.1 to 0.001 of
+    the period.
+
+    Measured: (20), (30), (33) to (36) hold, and (33) holds more widely than stated (claim waveforms). The fit (37) of
+    the sine is 0.014 too high at most. (39), that a train of impulses is best, holds: the narrower the pulse, the
+    nearer comes what is lost to all that is lost at rest, at any velocity, as 1 − Ψ falls with the square of the width.
+    No machine makes one; the best that N harmonics can do is in the claim waveforms.
+
+    Sentence: (20), (30), (33) to (36) and (39) hold; the fit (37) is off by 0.014 at most.
+    """
     return Part(
-        name="waveform",
-        title="Waveforms",
-        quote="",
-        range="Flat punch, elastic, rigid pull, contact kept; saws, square, sine, and pulses of a width from 0.1 to"
-        " 0.001 of the period.",
-        measured="(20), (30), (33) to (36) hold, and (33) holds more widely than stated (claim waveforms). The fit"
-        " (37) of the sine is 0.014 too high at most. (39), that a train of impulses is best, holds: the narrower the"
-        " pulse, the nearer comes what is lost to all that is lost at rest, at any velocity, as 1 − Ψ falls with the"
-        " square of the width. No machine makes one; the best that N harmonics can do is in the claim waveforms.",
-        sentence="(20), (30), (33) to (36) and (39) hold; the fit (37) is off by 0.014 at most.",
+        "waveform",
+        **told(part, locals()),
         checks=(*_stated_checks(), *_fit_checks(), *_impulse_checks()),
     )
 
