@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from tables import turning
 
 import mdr
 
@@ -21,17 +20,6 @@ def contact(eta, indenter=None, material=None, **others):
 
 
 BODY = mdr.SpringPull(k_x=2e4, m=0.05, c_x=10.0, k_y=3e4, c_y=8.0)
-
-
-@pytest.mark.parametrize("bodies", [False, True])
-def test_a_run_is_within_its_error_of_the_twin(bodies):
-    drawn = turning.drawn(120, bodies)
-    picked = [drawn[i] for i in ((8, 11, 12) if bodies else (1, 17, 40, 77, 101))]
-    for one in picked:
-        row = turning.row_of(*one, steps=8192)
-        assert row.settled, one[0]
-        assert row.doubt < 3e-6, one[0]
-        assert row.error <= min(row.bound, 2e-5), one[0]
 
 
 @pytest.mark.parametrize("r", [0.1, 1.0, 3.0])
@@ -59,13 +47,6 @@ def test_slow_slides_tend_to_what_is_held():
     assert 2 * near - far == pytest.approx(held, abs=0.3 * (far - near))  # not quite linear
 
 
-def test_the_mirror_image_keeps_the_force_across():
-    case = contact(0.5, du_x=3e-6, phi_x=0.7, oscillation=mdr.NormalOscillation(DEPTH, 5e-6, OMEGA))
-    back, ahead = mdr.slide(case, -1e-3), mdr.slide(case.mirrored, 1e-3)
-    assert (back.cof, back.cof_y) == pytest.approx((-ahead.cof, ahead.cof_y), rel=1e-12)
-    assert abs(ahead.cof_y) > 0.01
-
-
 @pytest.mark.parametrize("du_x", [0.0, 3e-6])
 def test_a_curve_has_the_forces_across_of_its_runs_both_ways(du_x):
     case = contact(0.5, du_x=du_x, phi_x=0.7, oscillation=mdr.NormalOscillation(DEPTH, 5e-6, OMEGA))
@@ -74,15 +55,6 @@ def test_a_curve_has_the_forces_across_of_its_runs_both_ways(du_x):
     assert_allclose(curve.cof, [run.cof for run in runs], rtol=0, atol=1e-4 * MU_0)
     assert_allclose(curve.cof_y, [run.cof_y for run in runs], rtol=0, atol=1e-4 * MU_0)
     assert (curve.cof_y[0] == curve.cof_y[1]) == case.is_alike_both_ways == (du_x == 0)
-
-
-@pytest.mark.parametrize("at", ["tool", "pull"])
-def test_energies_close_along_and_across(at):
-    case = contact(0.8, du_x=3e-6, at=at, pull=BODY)
-    run = mdr.slide(case, 1e-3)
-    assert run.settled
-    assert abs(run.energy_balance.relative) < 1e-4
-    assert run.energy_balance.damper_loss > 0
 
 
 def test_what_is_kept_of_a_run():
@@ -95,26 +67,6 @@ def test_what_is_kept_of_a_run():
     assert "F_y [N]" in run.table().splitlines()[0]
     plain = mdr.slide(replace(contact(0.8), shake=mdr.InPlaneOscillation(OMEGA, du_x=1e-5)), 1e-3, record=1)
     assert (plain.u_y, plain.cof_y) == (None, 0.0)
-
-
-@pytest.mark.parametrize(
-    "material",
-    [mdr.Elastic(3e6, 0.5), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.Prony(3e6, ((3e6, 3e-3), (1.5e6, 0.016)), 0.5)],
-    ids=["elastic", "Kelvin", "arms"],
-)
-@pytest.mark.parametrize(("eta", "v"), [(1.0, 6.0), (0.8, 0.4)], ids=["slip", "stick and slip"])
-def test_halved_steps_lower_the_error_by_its_order(material, eta, v):
-    motion = mdr.NormalOscillation(DEPTH, 0.3 * DEPTH, OMEGA)
-    case = contact(eta, mdr.FlatPunch(a=1e-3), material, oscillation=motion, du_x=3e-6, phi_x=0.4)
-
-    def forces(steps):
-        run = mdr.slide(case, v * MU_0 * material.mindlin_ratio * DEPTH * OMEGA, steps_per_period=steps, n_springs=32)
-        return np.array([run.cof, run.cof_y]) / MU_0
-
-    fine = forces(1024)
-    far, near = (np.abs(forces(steps) - fine).max() for steps in (32, 128))
-    assert near < 1e-6
-    assert np.log2(far / near) / 2 > 1.9  # four where nothing happens within a step
 
 
 def test_no_velocity_is_critical():

@@ -7,17 +7,14 @@ import numpy as np
 import pytest
 from conftest import SHAPES
 from numpy.testing import assert_allclose
-from tables import turning
 
 import mdr
 from mdr.march.dimensionless import ScaledContact
-from mdr.march.slide import slide_without_bound
 
 OMEGA, MU_0, NU, DEPTH = 300.0, 0.4, 0.4, 20e-6
 KAPPA = (2 - NU) / (2 * (1 - NU))
 REACH = MU_0 * KAPPA * DEPTH  # deflection at which the deepest spring slips
 KNOBS = {"n_springs": 64, "steps_per_period": 256}
-QUICK = {"steps": 4096}  # of the twin
 
 
 def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, at="tool", **others):
@@ -33,39 +30,6 @@ def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, a
         pull = mdr.SpringPull(k_x, m, 2 * zeta * math.sqrt(k_x * m))
     shake = mdr.InPlaneOscillation(OMEGA, chi * REACH, phi, at=at)
     return replace(mdr.SlidingContact(indenter, material, MU_0, motion, pull, shake), **others)
-
-
-@pytest.mark.parametrize(
-    ("shape", "alpha", "T", "chi", "phi", "v"),
-    [
-        ("flat", 0.0, 0.0, 0.3, 0.7, 0.4),
-        ("cone", 0.0, 0.0, 3.0, 0.7, -0.1),
-        ("paraboloid", 0.5, 0.0, 1.0, np.pi / 2, 0.3),
-        ("r4", 0.5, 0.3, 3.0, np.pi, -0.5),
-        ("cone", 1.4, 0.0, 1.0, np.pi / 2, -0.3),
-        ("flat", 0.6, 1.0, 5.0, 0.7, 0.6),
-        ("paraboloid", 1.3, 0.3, 10.0, 0.0, -0.2),
-    ],
-)
-def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi, v):
-    case = contact(shape, alpha, T, chi, phi)
-    row = turning.row_of("", shape, case, v * max(mdr.critical_velocity(case, way) for way in (1, -1)), **QUICK)
-    assert row.settled
-    assert row.bound <= 1e-5
-    assert row.doubt < 1e-5
-    assert row.error <= row.bound
-
-
-@pytest.mark.parametrize(
-    ("shape", "alpha", "T", "chi", "at"),
-    [("flat", 0.4, 0.0, 1.0, "tool"), ("paraboloid", 0.0, 0.3, 2.0, "pull"), ("cone", 0.6, 0.0, 1.0, "pull")],
-)
-def test_a_body_is_within_its_error_of_the_twin(shape, alpha, T, chi, at):
-    case = contact(shape, alpha, T, chi, body=(1.0, 0.7, 0.4), at=at)
-    row = turning.row_of("", shape, case, -0.4 * mdr.critical_velocity(case, -1), **QUICK)
-    assert row.settled
-    assert row.doubt < 1e-5
-    assert row.error <= row.bound
 
 
 # --- limits ---
@@ -95,20 +59,6 @@ def test_half_a_period_later_is_the_other_way(T, body):
     assert mdr.slide(case, -v_0, **KNOBS).cof == pytest.approx(-mdr.slide(case, v_0, **KNOBS).cof, rel=1e-8)
 
 
-def test_the_other_way_is_the_mirror_image():
-    case = contact(alpha=0.5, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4))
-    one, other = mdr.slide(case, -1e-3, record=1, **KNOBS), mdr.slide(case.mirrored, 1e-3, record=1, **KNOBS)
-    assert (one.cof, one.v_0, one.mean_F_x) == (-other.cof, -1e-3, -other.mean_F_x)
-    for name in ("u_x", "F_x", "e", "f_x"):
-        assert_allclose(getattr(one, name), -getattr(other, name), rtol=0, atol=0)
-    for name in ("F_z", "s", "f_z", "u_z", "t"):
-        assert_allclose(getattr(one, name), getattr(other, name), rtol=0, atol=0)
-    swapped = {mdr.State.SLIP: mdr.State.SLIP_BACK, mdr.State.SLIP_BACK: mdr.State.SLIP}
-    for mode in mdr.State:
-        assert np.array_equal(one.state == mode, other.state == swapped.get(mode, mode))
-    assert one.energy_balance == other.energy_balance
-
-
 def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
     far = contact(alpha=0.4, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4), at="pull")
     X = complex(far.way[0])
@@ -122,45 +72,6 @@ def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
 
 
 # --- accuracy, energy, the ends ---
-
-
-@pytest.mark.parametrize(
-    ("T", "body", "alpha", "chi"),
-    [(0.0, (1.0, 0.7, 0.4), 0.4, 1.0), (0.4, None, 1.4, 2.0)],
-    ids=["elastic body", "Kelvin, rigid, lost"],
-)
-def test_the_scheme_is_of_second_order(T, alpha, chi, body):
-    """In steps, and in springs, by a line through errors over a factor of 8 and 16, each of several contacts: the end
-    of slip crosses springs one by one, so that the error of one is erratic."""
-
-    def order(sizes, contacts, cofs, finest):
-        squares = np.zeros(sizes.size)
-        for one in contacts:
-            best = cofs(*one, finest)
-            squares += [np.sum((cofs(*one, size) - best) ** 2) for size in sizes]
-        return -0.5 * np.polynomial.polynomial.polyfit(np.log(sizes), np.log(squares), 1)[1]
-
-    def of(steps, springs, phi, shift):
-        case = contact("paraboloid", alpha, T, chi, phi, body=body)
-        knobs = {"n_springs": springs, "steps_per_period": steps, "start": "full_slip"}
-        velocities = (np.array([0.17, 0.37, 0.55]) + shift) * mdr.critical_velocity(case)
-        return np.array([slide_without_bound(case, v_0, **knobs)[0].cof for v_0 in velocities])
-
-    some = [(phi, 0.0) for phi in (0.3, 0.7, 1.9, 2.5)]
-    assert order(128 * 2 ** np.arange(4), some, lambda *one: of(one[2], 48, *one[:2]), 4096) > 1.95
-    more = [(phi, 0.019 * k) for k, phi in enumerate(np.linspace(0.15, 5.9, 8))]
-    assert order(24 * 2 ** np.arange(5), more, lambda *one: of(64, one[2], *one[:2]), 1536) > 1.9
-
-
-@pytest.mark.parametrize("at", ["tool", "pull"])
-@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)], ids=["rigid", "body"])
-@pytest.mark.parametrize("T", [0.0, 0.4])
-def test_energy_has_three_drives(T, body, at):
-    case = contact("paraboloid", alpha=0.4, T=T, chi=1.5, body=body, at=at)
-    account = mdr.slide(case, 1e-3, n_springs=64, steps_per_period=64).energy_balance
-    # the path of a body within a step is taken for a cubic, which misses h^4 = 9e-5 times a thousandth
-    assert abs(account.relative) < (1e-9 if body is None else 1e-7)
-    assert account.shake_work > 0.1 * account.friction_loss
 
 
 def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():

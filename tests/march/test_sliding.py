@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 import reference
 from conftest import SHAPES, by_groups, contact, unit_of_velocity
+from contacts import BODY, STILL
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import State
 from mdr.march import full_slip, march
 
-BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
-MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
 #: light body on a soft damped spring: it swings so widely that it comes back over the surface
 BACKWARD = {"shape": "paraboloid", "depth_ratio": 10 / 3, "k_ratio": 0.02, "omega_0_ratio": 2.0, "c_ratio": 0.001}
 COARSE = {"n_springs": 96, "steps_per_period": 256}
@@ -31,15 +30,7 @@ def coarse(case, v_hat, n_periods=12, **knobs):
     return run_at(case, v_hat, n_periods=n_periods, **(COARSE | knobs))
 
 
-CONTACTS = {
-    "rigid elastic": contact("paraboloid", 2.5),
-    "rigid Kelvin": contact("cone", 2.5, 0.6),
-    "flat, contact lost": contact("flat", 0.7, 0.6),
-    "tapping": contact("paraboloid", -0.3, 0.6),
-    "body elastic": contact("cone", 2.5, **BODY),
-    "body Kelvin": contact("paraboloid", 2.5, 0.6, **BODY),
-    "massless Kelvin": contact("r4", 2.5, 0.6, **MASSLESS),
-}
+CONTACTS = {name: case for name, (_, case) in STILL.items()}
 on_all = pytest.mark.parametrize("case", CONTACTS.values(), ids=CONTACTS.keys())
 
 
@@ -229,23 +220,6 @@ def test_stick_share_is_the_force_weighted_share_of_time():
         off.append(abs(run.stick_share - np.sum(normal[run.state == State.STICK]) / np.sum(normal)))
     assert off[0] < 1 / 128
     assert off[1] < off[0] / 4
-
-
-# --- energy -------------------------------------------------------------------------------------------------
-
-
-@on_all
-def test_energy_is_conserved(case):
-    """Each term from its own definition: exact but for the damper and the motion of a body between two nodes."""
-    for steps in (64, 256):
-        balance = coarse(case, 0.43, 24, steps_per_period=steps).energy_balance
-        bound = 1e-9 if isinstance(case.pull, mdr.RigidPull) else 1e-3 if case.pull.m else 1e-2
-        assert abs(balance.relative) < (bound if bound == 1e-9 else bound * (64 / steps) ** 2)
-        for name in ("pull_work", "friction_loss"):
-            assert getattr(balance, name) > 0
-        assert (balance.viscous_loss > 0) == (case.T > 0)
-        damped = isinstance(case.pull, mdr.SpringPull) and case.pull.c_x > 0
-        assert (balance.damper_loss > 0) == damped
 
 
 # --- settling -----------------------------------------------------------------------------------------------
