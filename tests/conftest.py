@@ -29,7 +29,7 @@ LONGEST = (
 )
 assert all((Path(__file__).parent / name).exists() for name in LONGEST)
 
-#: indenter and the exponent n of its profile g ~ x**n, as the twin in reference.py counts shapes
+#: indenter and the exponent n of its profile g ~ x**n, as the twin in rigid_pull.py counts shapes
 SHAPES = {
     "flat": (mdr.FlatPunch(a=1e-3), math.inf),
     "cone": (mdr.Cone(theta=0.02), 1),

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-import reference
 from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
 
 import mdr
 from mdr.closed_forms import rigid_pull

@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-import reference
-import reference_turning as twin
 from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
+from twins import turning as twin
 
 import mdr
 from mdr.closed_forms import rigid_pull, shaken_pull, shaken_spring

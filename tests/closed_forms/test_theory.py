@@ -8,9 +8,9 @@ import re
 
 import numpy as np
 import pytest
-import reference
 from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
 
 import mdr
 from mdr.closed_forms import paper

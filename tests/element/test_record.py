@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from reference_steps import followed
+from twins.path import followed
 
 import mdr
 from mdr.__main__ import main

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import reference
 from conftest import contact
 from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
 
 import mdr
 from mdr.march import orbit_loop, periodic_orbit

@@ -6,10 +6,10 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-import reference
 from conftest import SHAPES, by_groups, contact, unit_of_velocity
 from contacts import BODY, STILL
 from numpy.testing import assert_allclose, assert_array_equal
+from twins import rigid_pull as reference
 
 import mdr
 from mdr import State
@@ -412,7 +412,7 @@ def test_a_flat_face_throws_a_body_without_mass_at_second_order(T, damper):
 
 
 def test_the_body_without_mass_on_dashpots_is_the_twin():
-    """0.584068 mu_0, by an integration in a million steps of first order (tests/reference.py)."""
+    """0.584068 mu_0, by an integration in a million steps of first order (tests/twins/rigid_pull.py)."""
     case = by_groups("flat", 0.4, 2.0, 1.5, math.inf, 3.0)
     run = run_at(case, 0.8)
     twin = reference.massless_punch(1 / 1.5, 0.8, 2.0, 3.0, 64_000)

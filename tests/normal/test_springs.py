@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-import reference
 from conftest import SHAPES, bowl, contact
 from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
 
 import mdr
 from mdr.normal.springs import MIN_SPRINGS, SpringArray

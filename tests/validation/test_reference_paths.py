@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from pages import DOCS
-from reference_steps import followed
+from twins.path import followed
 
 import mdr
 from validation import reference_paths, reference_springs

@@ -27,9 +27,7 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.linalg import expm
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 TWO_PI = 2 * np.pi
 
@@ -310,142 +308,13 @@ def rigid_kelvin_cof(n, depth_ratio, v_hat, T, n_nodes=20, levels=5):
 # --- full slip of the whole array ---------------------------------------------------------------------------
 
 
-def edge_of_contact(t, T):
-    """The h of the spring at the edge of contact at time t (springs of larger h touch).
-
-    Springs leave from the edge inwards while w + T w' of the edge spring is 0, until t = pi - arctan T;
-    then they come back from the inside out, each on the surface that relaxed since it left.
-    """
-    t = t % TWO_PI
-    root, delta = math.hypot(1, T), math.atan(T)
-    if T == 0:
-        return -math.cos(t)
-    if t <= np.pi - delta:
-        return -(math.cos(t) - T * math.sin(t))
-
-    def above_surface(h):
-        off = math.acos(max(-1.0, min(1.0, -h / root))) - delta
-        return h + math.cos(t) - (h + math.cos(off)) * math.exp(-(t - off) / T)
-
-    low, high = -1.0, root
-    if above_surface(low) >= 0:
-        return low
-    if above_surface(high) <= 0:
-        return high
-    return brentq(above_surface, low, high, xtol=1e-15)
-
-
-def full_slip_force(t, n, depth_ratio, T, reference_depth=None):
-    """Normal force of the whole array at times t, in units where dF/dd = 1 at the reference depth (u_z0)."""
-    t = np.atleast_1d(np.asarray(t, dtype=float))
-    reference = depth_ratio if reference_depth is None else reference_depth
-    load = depth_ratio + np.cos(t) - T * np.sin(t)  # w + T w' at the tip
-    if math.isinf(n):
-        on, off = tip_times(depth_ratio, T)
-        touching = ((t - on) % TWO_PI <= off - on) | always_touches(depth_ratio, T)
-        return np.where(touching, np.maximum(load, 0), 0.0)
-    edge = np.array([edge_of_contact(ti, T) for ti in t])
-    depth_of_edge = np.maximum(depth_ratio - edge, 0)  # g at the edge
-    x = (depth_of_edge / reference) ** (1 / n) if reference > 0 else depth_of_edge ** (1 / n)
-    return np.maximum(x * (load - depth_of_edge / (n + 1)), 0)
-
-
 def mean_force(n, depth_ratio, T, reference_depth=None):
     """Mean normal force over a period, from the mean compression of every spring."""
     h, dx = springs(n, depth_ratio, [math.hypot(1, T)], 40, levels=4, reference_depth=reference_depth)
     return float(mean_compression(h, T) @ dx)
 
 
-def extreme(f, low, high, n_scan=400):
-    """(t, f) of the largest f on [low, high]: a scan, then a bounded search around the best point."""
-    t = np.linspace(low, high, n_scan)
-    value = np.array([f(ti) for ti in t])
-    i = int(np.argmax(value))
-    found = minimize_scalar(
-        lambda x: -f(x),
-        bounds=(t[max(i - 1, 0)], t[min(i + 1, n_scan - 1)]),
-        method="bounded",
-        options={"xatol": 1e-10},
-    )
-    return (t[i], value[i]) if value[i] >= -found.fun else (found.x, -found.fun)
-
-
-def static_cof(n, depth_ratio, T):
-    """Static COF / mu_0: least over mean normal force; 0 as soon as the tip leaves the plane."""
-    if not always_touches(depth_ratio, T):
-        return 0.0
-    _, value = extreme(lambda t: -full_slip_force(t, n, depth_ratio, T)[0], 0, TWO_PI, 200)
-    return -value / mean_force(n, depth_ratio, T)
-
-
-def body_matrix(k_ratio, omega_0_ratio, c_ratio):
-    """(mass, A) of the body: m y'' + c y' + k y = -F as z' = A z - (0, F / m), z = (y, y')."""
-    mass = k_ratio / omega_0_ratio**2
-    return mass, np.array([[0.0, 1.0], [-k_ratio / mass, -c_ratio / mass]])
-
-
-def full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth=None):
-    """Periodic motion of the body in full slip: list of (t_low, t_high, z), z = (y, y'), u_x = v_hat t + y.
-
-    The oscillator is linear: one run from rest over the period, split where F_N is not smooth, gives the
-    periodic start (1 - exp(2 pi A))**-1 z(2 pi), and the free motion from there is added to it.
-    """
-    mass, matrix = body_matrix(k_ratio, omega_0_ratio, c_ratio)
-    on, off = tip_times(depth_ratio, T)
-    if always_touches(depth_ratio, T):
-        cuts = sorted({0.0, np.pi - math.atan(T), TWO_PI})
-    else:
-        cuts = sorted({on, off, TWO_PI, on + TWO_PI})
-
-    mean = mean_force(n, depth_ratio, T, reference_depth)
-
-    def pieces():
-        out, z = [], np.zeros(2)
-        for low, high in pairwise(cuts):
-            inner = 1e-13 * (high - low)  # keep one-sided values of a force that jumps
-
-            def rate(t, z, low=low, high=high, inner=inner):
-                at = min(max(t, low + inner), high - inner)
-                force = full_slip_force([at], n, depth_ratio, T, reference_depth)[0] - mean
-                return matrix @ z - np.array([0.0, force / mass])
-
-            run = solve_ivp(rate, (low, high), z, method="DOP853", rtol=1e-11, atol=1e-12 / mass, dense_output=True)
-            out.append((low, high, run.sol))
-            z = run.y[:, -1]
-        return out, z
-
-    driven, end = pieces()
-    start = np.linalg.solve(np.eye(2) - expm(TWO_PI * matrix), end)
-    rates, modes = np.linalg.eig(matrix)  # apart: no body is damped critically
-    shares = np.linalg.solve(modes, start)
-    return [
-        (low, high, lambda t, z=z: z(t) + (modes @ (shares * np.exp(rates * (t - cuts[0])))).real)
-        for low, high, z in driven
-    ]
-
-
-def full_slip_critical_velocity(
-    n, depth_ratio, T, k_ratio=math.inf, omega_0_ratio=1.0, c_ratio=0.0, reference_depth=None
-):
-    """Critical velocity / (mu_0 kappa omega du_z): the largest du_z/dt - dy/dt over the instants of contact.
-
-    Every spring slides forward as long as v_hat + y' exceeds s' = -sin t of the springs in contact. k_ratio
-    = inf is the rigid pull, y = 0: then v_c is 1 if the tip touches at t = 3 pi / 2, and less if it comes
-    back later.
-    """
-    on, off = tip_times(depth_ratio, T)
-    if math.isinf(k_ratio):
-        return 1.0 if on <= 1.5 * np.pi else max(-math.sin(on), 0.0)
-    motion = full_slip_motion(n, depth_ratio, T, k_ratio, omega_0_ratio, c_ratio, reference_depth)
-    best = -math.inf
-    for low, high, z in motion:
-        middle = (low + high) / 2
-        if (middle - on) % TWO_PI <= off - on or always_touches(depth_ratio, T):
-            best = max(best, extreme(lambda t, z=z: -math.sin(t) - z(t)[1], low, high)[1])
-    return float(best)
-
-
-# --- spring pull: reference_turning.py has all but a body without mass --------------------------------------
+# --- spring pull: twins/turning.py has all but a body without mass --------------------------------------
 
 
 def damping_for(zeta, k_ratio, omega_0_ratio):
