@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from elements import ELASTIC, MATERIALS, every_material
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -16,13 +17,6 @@ from mdr.spring.row import row_in_plane
 from mdr.spring.times import tools_for
 
 BALL, DEPTH, MU_0, DT = mdr.Paraboloid(R=5e-3), 40e-6, 0.5, 1e-3
-ELASTIC = mdr.Elastic(E=3e6, nu=0.5)
-MATERIALS = {
-    "elastic": ELASTIC,
-    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-    "arms": mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
-}
-every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS.keys())
 REACH = MU_0 * ELASTIC.mindlin_ratio * DEPTH  #: way that brings the deepest spring from rest to slip
 
 
@@ -72,38 +66,6 @@ def test_partial_slip_is_that_of_the_closed_form():
     assert_allclose(F[[0, 2]], [exact.F_x, exact.F_z], rtol=3e-5)  # third order in 1/n, of the jumps at two edges
 
 
-def test_a_straight_piece_in_seven_is_one_piece():
-    contact = element(n_springs=256)
-    us = np.array([[1, 0, 0.7], [-0.5, 0, 0.3], [0.4, 0, 0.9], [1.5, 0, -0.1], [1.2, 0, 0.5]]) * [REACH, REACH, DEPTH]
-    state = other = contact.at_rest((0, 0, DEPTH / 2))
-    for u in us:
-        start = other[:3]
-        F, state = contact.step(state, DT, u)
-        for k in range(1, 8):
-            G, other = contact.step(other, DT, start + k / 7 * (u - start))
-        assert_allclose(G, F, rtol=1e-11, atol=1e-11 * MU_0 * BALL.force(DEPTH, ELASTIC.E_star))
-    assert_allclose(other[N_HEAD:-1], state[N_HEAD:-1], atol=1e-11)
-    assert_allclose(contact.dissipated(other), contact.dissipated(state), rtol=1e-10)
-
-
-@every_material
-def test_turned_steps_are_of_second_order(material):
-    """The force at the end of an arc, in 32, 64 and 128 steps."""
-    contact, ends = element(material), []
-    for n in (32, 64, 128):
-        phase = np.linspace(0, 1, n + 1)[1:] * np.pi
-        us = np.column_stack([np.sin(phase) * REACH, (1 - np.cos(phase)) * REACH, DEPTH * (0.5 + 0.2 * np.sin(phase))])
-        # the force is that of the last straight piece: a short one in the direction of the end, the same for all
-        us = np.vstack([us, us[-1] - [1e-3 * REACH, 0, 0]])
-        state = contact.at_rest((0, 0, DEPTH / 2))
-        for k, u in enumerate(us):
-            F, state = contact.step(state, 1e-2 / n if k < n else 1e-6, u)
-        ends.append(F)
-    first, second = np.abs(ends[0] - ends[1]).max(), np.abs(ends[1] - ends[2]).max()
-    assert second < 0.4 * first
-    assert second < 1e-3 * ends[2][2]
-
-
 def test_elastic_contacts_know_no_time():
     one, two = (follow(element(), walk(), dt=dt)[0] for dt in (0.0, 7.0))
     assert_array_equal(one, two)
@@ -111,14 +73,14 @@ def test_elastic_contacts_know_no_time():
 
 @every_material
 def test_a_contact_at_rest_does_not_creep(material):
-    """Held at 0.999 mu_0 F_N for 1e5 steps. What viscous springs do at rest is over before."""
+    """Held at 0.999 mu_0 F_N: a state that a step leaves as it is stays. What viscous springs do at rest is over."""
     contact = element(material, shape=mdr.FlatPunch(a=1e-3))
     u = np.array([0.999 * MU_0 * ELASTIC.mindlin_ratio * DEPTH / 2, 0, DEPTH / 2])
     _, state = contact.step(contact.at_rest((0, 0, DEPTH / 2)), 1e3, u)
     F, state = contact.step(state, 1e3, u)
     assert 0.9989 < F[0] / (MU_0 * F[2]) < 0.9991
     held = state
-    for _ in range(100_000):
+    for _ in range(1000):
         G, held = contact.step(held, 1e-3, u)
     assert_allclose(G, F, rtol=1e-15)
     assert_allclose(held, state, rtol=1e-15, atol=1e-300 if material is ELASTIC else 1e-15)
@@ -261,14 +223,6 @@ def test_the_loop_of_force_and_way_is_what_is_lost():
     assert_allclose(contact.stored(end), contact.stored(state), rtol=1e-12)
 
 
-@every_material
-def test_turned_axes_turn_the_force(material):
-    contact, us, angle = element(material), walk(), 0.7
-    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
-    (F, _), (G, _) = follow(contact, us), follow(contact, us @ turn.T)
-    assert_allclose(G, F @ turn.T, rtol=0, atol=1e-12 * np.abs(F).max())
-
-
 # --- the tangent ---
 
 TANGENTS = {
@@ -359,35 +313,18 @@ def test_a_still_step_is_as_stiff_as_steps_beside_it():
             assert min(beside) - 1e-3 * K[2, 2] <= K[j, j] <= max(beside) + 1e-3 * K[2, 2]
 
 
-def test_where_springs_switch_the_tangent_looks_ahead():
-    """At rest in full slip: on the way of the slip nothing resists."""
-    flat = element(shape=mdr.FlatPunch(a=1e-3))
-    _, state = flat.step(flat.at_rest((0, 0, DEPTH / 2)), 0.0, (2 * REACH, 0, DEPTH / 2))
-    _, back = flat.step(state, 0.0, (-2 * REACH, 0, DEPTH / 2))
-    for slipped, x in ((state, 2), (back, -2)):
-        K = flat.step(slipped, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
-        assert abs(K[0, 0]) < 1e-8 * K[2, 2]
-
-
 # --- what is refused ---
 
 GOOD = (0.0, 0.0, 1e-6)
 HOSTILE = {
     "NaN": ({"u": (0.0, np.nan, 0.0)}, "finite"),
-    "infinite": ({"u": (np.inf, 0.0, 0.0)}, "finite"),
     "two numbers": ({"u": (0.0, 0.0)}, "shape"),
-    "a number": ({"u": 1.0}, "shape"),
     "words": ({"u": ("a", "b", "c")}, "real numbers"),
-    "complex": ({"u": (1j, 0, 0)}, "real numbers"),
-    "None": ({"u": None}, "real numbers"),
-    "ragged": ({"u": ((0, 0), 0, 0)}, "array of numbers"),
     "too deep": ({"u": (0.0, 0.0, 41e-6)}, "u_z_max"),
     "a batch for one": ({"u": np.zeros((2, 3))}, "shape"),
     "far away": ({"u": (1.7e308, 0.0, 1e-6)}, "range of floats"),
     "dt < 0": ({"dt": -1e-3}, "negative"),
     "dt NaN": ({"dt": np.nan}, "finite"),
-    "dt of each": ({"dt": np.ones(2)}, "real number"),
-    "dt a word": ({"dt": "1"}, "real number"),
     "tangent 1": ({"tangent": 1}, "True or False"),
     "state NaN": ({"state": "nan"}, "finite"),
     "state of other springs": ({"state": "other"}, "of this element"),
@@ -401,7 +338,6 @@ HOSTILE = {
     "state at another depth": ({"state": "lifted"}, "possible"),
     "state beyond friction": ({"state": "stretched"}, "possible"),
     "state of a cube": ({"state": "cube"}, "of this element"),
-    "state None": ({"state": None}, "real numbers"),
 }
 
 
@@ -433,14 +369,6 @@ def test_hostile_steps_are_refused(change, words):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"mu_0": 0.0}, "mu_0"),
-        ({"mu_0": "high"}, "mu_0"),
-        ({"u_z_max": -1e-6}, "u_z_max"),
-        ({"u_z_max": np.nan}, "u_z_max"),
-        ({"n_springs": 4}, "n_springs"),
-        ({"n_springs": 64.0}, "n_springs"),
-        ({"indenter": 1.0}, "indenter"),
-        ({"material": mdr.Elastic}, "material"),
         ({"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5)}, "E_inf = 0"),
         ({"indenter": mdr.ConcavePunch(a=1e-3, R=0.1)}, "ring"),
         ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-4)}, "deeper"),

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from elements import every_material
 from numpy.testing import assert_allclose
 
 import mdr
@@ -15,15 +16,10 @@ PUNCH = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), ELASTIC, MU_0, STEADY)
 BALL = replace(PUNCH, indenter=mdr.Paraboloid(R=0.05))
 BAND = mdr.Spectrum.band(rms=2e-6, f_low=50.0, f_high=100.0)
 UNIT = MU_0 * ELASTIC.mindlin_ratio * BAND.rms_velocity
-MATERIALS = {
-    "elastic": ELASTIC,
-    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-    "arms": mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
-}
 
 
 @pytest.mark.parametrize("rms", [2e-6, 15e-6], ids=["kept", "lost"])
-@pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+@every_material
 def test_a_history_is_a_recorded_motion(material, rms):
     """The third period of a record less its second, with the same springs; steps are extrapolated in one of them."""
     case, spectrum, v_0 = replace(BALL, material=material), mdr.Spectrum.band(rms, 50.0, 100.0), UNIT

@@ -191,14 +191,6 @@ def test_a_little_damping_brings_the_harmonic_back():
     assert_allclose(scaled.full_slip.state()[[Y, RATE]], [expected.real, (1j * expected).real], rtol=1e-3, atol=10)
 
 
-def test_full_slip_repeats_itself_in_an_odd_number_of_steps():
-    scaled = scaled_of("paraboloid", 4.0, 0.5, **BODIES["damped"], steps=63)
-    stepper = Stepper(scaled, 1e3)
-    start = stepper.full_slip()
-    after = stepper.period(start.copy())
-    assert_allclose(after.body, start.body, rtol=0, atol=1e-12 * np.abs(start.body).max())
-
-
 def test_rest_is_rest():
     """The body stands still: its motion relative to the pull runs backward at v."""
     v = 0.3

@@ -34,13 +34,6 @@ def test_response_is_the_dynamic_modulus(arms):
 # --- runs ---
 
 
-def test_one_arm_is_the_standard_solid():
-    prony, solid = mdr.Prony(3e6, [(6e6, 2e-3)], 0.4), mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.4)
-    motion = mdr.NormalOscillation(6e-6, 2e-6, OMEGA)
-    runs = [mdr.slide(mdr.SlidingContact(SHAPES["cone"][0], m, 0.4, motion), 3e-4) for m in (prony, solid)]
-    assert runs[0] == runs[1]
-
-
 @pytest.mark.parametrize("v", [0.3, 0.8])
 def test_a_fast_arm_is_a_dashpot(v):
     T = 0.4

@@ -105,17 +105,6 @@ def test_springs_that_stand_alike_are_marched_as_one():
 # --- start --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "flat, contact lost", "body elastic", "body Kelvin"])
-@pytest.mark.parametrize("v_hat", [0.3, 0.8])
-def test_the_start_is_forgotten(name, v_hat):
-    knobs = {"n_springs": 96, "steps_per_period": 256}
-    full_slip, rest = (run_at(CONTACTS[name], v_hat, start=start, **knobs) for start in ("full_slip", "rest"))
-    assert full_slip.settled
-    assert rest.settled
-    # a settled run is settled to 1e-6 of mu_0, either of them
-    assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=2e-6 * rest.mu_0)
-
-
 @pytest.mark.parametrize(
     ("groups", "share", "most", "knobs"),
     [
@@ -254,13 +243,6 @@ def test_a_run_of_given_length_says_what_its_error_leaves_out():
 
 
 # --- found by trying to break it --------------------------------------------------------------------------------
-
-
-def test_a_start_from_rest_is_not_settled_before_the_springs_are_stretched():
-    case = contact("cone", 1e8)
-    run = mdr.slide(case, 0.5 * unit_of_velocity(case), start="rest")
-    assert not run.settled
-    assert "periods to stretch the springs" in run.why
 
 
 def test_an_amplitude_lost_in_rounding_is_refused():

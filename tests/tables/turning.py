@@ -95,14 +95,6 @@ def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) ->
     return twin.friction(SHAPES[shape][1], case.cycle.u_z0 / unit, *motion, material, body, across, **knobs)
 
 
-def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:
-    """The run beside the twin, along or across the pull, where they differ more."""
-    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs)
-    bound, ends = run.cof_error / MU_0, ((run.cof, known.along, ""), (run.cof_y, known.across, ", across"))
-    rows = [Row(name + end, cof / MU_0, bound, truth, known.doubt, run.settled) for cof, truth, end in ends]
-    return max(rows, key=lambda one: one.distance)
-
-
 @dataclass(frozen=True)
 class Row:
     """One run beside the truth as far as that is known; all over mu_0."""
@@ -122,6 +114,14 @@ class Row:
     def error(self) -> float:
         """What the doubt leaves of the distance."""
         return max(self.distance - self.doubt, 0.0)
+
+
+def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:
+    """The run beside the twin, along or across the pull, where they differ more."""
+    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs)
+    bound, ends = run.cof_error / MU_0, ((run.cof, known.along, ""), (run.cof_y, known.across, ", across"))
+    rows = [Row(name + end, cof / MU_0, bound, truth, known.doubt, run.settled) for cof, truth, end in ends]
+    return max(rows, key=lambda one: one.distance)
 
 
 def told(rows: Sequence[Row]) -> int:
