@@ -5,6 +5,7 @@ import ctypes
 import pickle
 
 import numpy as np
+import pytest
 from elements import ARMS, DOUBLES, ELASTIC, at
 from numpy.testing import assert_array_equal
 
