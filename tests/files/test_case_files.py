@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.files import case_files, own_records
+from mdr.files import case_files
 from mdr.files.case_files import write_case
 from mdr.files.toml_text import CaseFileError
 from mdr.given.case_file import parse_case, read_case
@@ -68,18 +68,6 @@ def test_a_named_oscillation_is_held_to_its_name():
     assert fault == '[oscillation] motion "Normal" is unknown; did you mean NormalOscillation?'
 
 
-@dataclass(frozen=True)
-class Beat(mdr.PeriodicMotion):
-    """A motion of later, with the keys of an old one."""
-
-
-def test_a_motion_of_later_is_named_in_its_file(monkeypatch):
-    monkeypatch.setitem(own_records._OWN, "Beat", Beat)
-    beat = case(oscillation=Beat(300.0, 2e-5, (1e-6,)))
-    assert 'motion = "Beat"' in write_case(beat)
-    assert parse_case(write_case(beat)) == beat
-
-
 def test_what_a_file_cannot_carry_is_refused_with_the_reason():
     with pytest.raises(CaseFileError, match=r"\[indenter\] Profile: its shape is a Python function.*Paraboloid"):
         write_case(case(indenter=mdr.Profile(lambda r: r**2, name="bowl")))
@@ -121,20 +109,6 @@ def test_a_file_takes_quantities_in_quotes():
     motion = mdr.NormalOscillation(mdr.static_depth(mdr.Cone(np.deg2rad(2)), rubber, 0.05), 2e-6, omega)
     shake, pull = mdr.InPlaneMotion(omega, x_cos=(1e-6, 2e-6)), mdr.SpringPull(2e4, 0.1)
     assert parse_case(text) == mdr.SlidingContact(mdr.Cone(np.deg2rad(2)), rubber, 0.5, motion, pull, shake)
-
-
-def test_arms_take_quantities():
-    text = (
-        GOOD[: GOOD.index("[material]")]
-        + """[material]
-        model = "Prony"
-        E_inf = "3 MPa"
-        nu = 0.5
-        arms = [["2 MPa", "1 ms"], [1e6, 0.1]]
-    """
-        + GOOD[GOOD.index("[oscillation]") :]
-    )
-    assert parse_case(text).material == mdr.Prony(3e6, ((2e6, 1e-3), (1e6, 0.1)), 0.5)
 
 
 def test_another_quantity_is_refused_with_every_other_fault():

@@ -112,21 +112,6 @@ def test_a_material_comes_back_from_its_moduli(write):
 # --- records ---
 
 
-@pytest.mark.parametrize(
-    ("head", "row", "arguments"),
-    [
-        ("t [ms], a [g]", "2, -3", {}),
-        ("time (s); acceleration (m/s^2); note", "0.002; -29.41995; a", {}),
-        ("t / s, a_z / mg", "0.002, -3000", {}),
-        ("t [s], Kanal 1", "0.002, -3", {"units": {"a_z": "g"}, "columns": {"a_z": "Kanal 1"}}),
-    ],
-)
-def test_an_acceleration_is_read_in_si(write, head, row, arguments):
-    record = mdr.read_record(write(f"{head}\n{row}\n"), **arguments)
-    assert list(record) == ["t", "a_z"]
-    assert_allclose([record["t"][0], record["a_z"][0]], [2e-3, -3 * 9.80665], rtol=1e-14)
-
-
 def test_a_motion_is_read_as_slide_record_takes_it(write):
     record = mdr.read_record(write("t [s], x [mm], displacement [um]\n0, 1, 2\n1, 2, 3\n"))
     assert {name: values.tolist() for name, values in record.items()} == {

@@ -291,12 +291,6 @@ def test_on_resonance_the_verdict_names_the_pole_and_the_coupling():
     assert "no critical velocity, as it says" in str(verdict)
 
 
-def test_loss_of_contact_is_said():
-    verdict = mdr.verdict(make(*MEASURED["flat, body, loses contact"]))
-    assert not verdict.holds
-    assert "contact is lost in part of the period, Eq. (5)" in verdict.why
-
-
 # --- beyond the usual --------------------------------------------------------------------------------------------
 
 

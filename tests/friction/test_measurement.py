@@ -89,12 +89,6 @@ def test_stick_that_only_finer_steps_find_is_found(world):
     assert found.v_c == pytest.approx(1.3 * UNIT, rel=1e-4)
 
 
-def test_stick_that_no_finer_step_lets_end_has_no_v_c(world):
-    coarse = default_steps(CASE)
-    world(lambda start, steps, _: 0.83 if steps <= coarse else 1e9)
-    assert mdr.measure_critical_velocity(CASE).kind == "none"
-
-
 def test_runs_above_that_do_not_settle_are_named(world):
     world(lambda *_: 0.83, settled=lambda v, start: not (start == "rest" and 1.0 < v < 1.2))
     assert "not settled: 1.3 v_c from rest" in mdr.measure_critical_velocity(CASE).why

@@ -66,12 +66,6 @@ def test_numbers_are_those_of_a_loop_over_files():
     assert found.warnings == ()
 
 
-def test_without_what_was_set_the_fields_are_the_inputs():
-    found = mdr.tolerance(case_of(TABLES).case, V_0)
-    assert {"oscillation.u_z0", "material.tau", "frequency"} < set(found.cof)
-    assert not {"load", "tan_delta", "oscillation.omega"} & set(found.cof)
-
-
 def test_small_steps_are_the_derivative_of_eq_1():
     """Under a rigid pull v_c = mu_0 kappa omega du_z: each factor moves it by its own share, and R, E not at all."""
     found = mdr.tolerance(case_of({**TABLES, "material": {"model": "Elastic", "E": 3e9, "nu": 0.4}}).case, V_0, by=1e-3)
@@ -79,17 +73,6 @@ def test_small_steps_are_the_derivative_of_eq_1():
         assert_allclose(
             np.array(found.v_c[path]) / found.base_v_c, [(1 - 1e-3) ** power, (1 + 1e-3) ** power], rtol=1e-12
         )
-
-
-def test_one_frequency_of_oscillation_and_shake_is_one_input():
-    motion, shake = mdr.NormalOscillation(20e-6, 4e-6, 314.0), mdr.InPlaneOscillation(314.0, du_x=1e-6)
-    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.Elastic(3e6, 0.3), 0.5, motion, shake=shake)
-    found = mdr.tolerance(case, 1e-4, fields=["frequency", "shake.du_x"])
-    assert_allclose(found.inputs["frequency"], np.array([0.9, 1.1]) * 314 / (2 * np.pi), rtol=1e-12)
-    whole = mdr.SlidingContact(
-        case.indenter, case.material, 0.5, replace(motion, omega=1.1 * 314), shake=replace(shake, omega=1.1 * 314)
-    )
-    assert_allclose(found.cof["frequency"][1], mdr.cof_curve(whole, 1e-4).cof[0], rtol=1e-9)
 
 
 def test_what_a_case_cannot_have_is_moved_to_what_it_can():

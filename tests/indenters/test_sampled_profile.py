@@ -1,16 +1,13 @@
 """Shapes from measured points: as good as their splines say, or refused with the reason."""
 
 import contextlib
-from itertools import pairwise
 
 import numpy as np
 import pytest
 from catalogue import THETA, B, R
 from numpy.testing import assert_allclose
-from scipy.integrate import quad
 
 import mdr
-from mdr.indenters.base import Indenter
 
 GRID = np.linspace(0, 2e-3, 201)  # B is one of its points
 
@@ -58,30 +55,6 @@ def test_what_a_spline_can_be_is_exact(shape, how):
     d, r = scale * np.array([0.02, 0.5, 0.9]), np.array([[1e-5], [0.5 * B], [0.99 * B]])
     assert_allclose(spline.contact_radius(d), shape.contact_radius(d), rtol=1e-11)
     assert_allclose(spline.pressure(r, d, 1), shape.pressure(r, d, 1), rtol=1e-10)
-
-
-def test_the_image_is_that_of_the_spline():
-    """Whatever the spline: one through rough points, against quad over each of its pieces."""
-    rng = np.random.default_rng(3)
-    r = 1e-3 * np.linspace(0, 1, 30) ** 1.3
-    shape = mdr.SampledProfile(r, r**2 / 1e-2 * (1 + 1e-3 * rng.normal(size=r.size)), tip="sharp")
-    image = shape._image
-    for x in (0.3e-3, 0.9e-3):
-        turns = np.arcsin(np.append(r[r < x], x) / x)
-        area = sum(
-            quad(lambda t, x=x: float(shape.profile_3d(x * np.sin(t)) * np.sin(t)), *two, epsabs=0)[0]
-            for two in pairwise(turns)
-        )
-        assert_allclose(shape.profile_area(x), x * area, rtol=1e-11)
-        h = 1e-4 * x  # g is the slope of that area
-        slope = (shape.profile_area(x + h) - shape.profile_area(x - h)) / (2 * h)
-        assert_allclose(shape.profile_1d(x), slope, rtol=1e-5)  # h²/6 g''/g, and g'' is rough
-        steps = np.array([x - h, x + h])
-        rise = np.diff(shape.profile_1d(steps))[0] / (2 * h)
-        assert_allclose(image._outer(1, np.array([x]), image._piece(np.array([x]))), rise, rtol=1e-3)
-    assert_allclose(
-        Indenter._f(shape, np.array(0.7e-3)), shape.profile_3d(0.7e-3), rtol=3e-4
-    )  # a rule that knows no knots
 
 
 def test_noise_is_smoothed_or_refused():

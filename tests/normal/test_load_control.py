@@ -105,15 +105,6 @@ def test_forces_balance(shape, material, m_z):
     assert_allclose(inertia + force, load.F_z(phase / OMEGA), rtol=0, atol=limit * load.F_z0)
 
 
-def test_a_mass_on_a_punch_is_the_linear_oscillator():
-    case = under_load("flat", KELVIN, 0.3, 0.4)
-    motion = case.oscillation.load
-    u = motion.dF_z / (case.k_zc * (1 + 1j * case.T) - motion.m_z * OMEGA**2)
-    assert_allclose(case.cycle.u_z0, motion.F_z0 / case.k_zc, rtol=1e-12)
-    assert_allclose(case.cycle.du_z * case.cycle.harmonics[0], u, rtol=1e-9)
-    assert case.cycle.du_z == pytest.approx(abs(u), rel=1e-9)
-
-
 def test_a_mass_that_lets_go_is_the_oscillator_marched():
     case = under_load("flat", mdr.KelvinVoigt(3e6, 0.4, 3e-3), 1.3, 0.02)
     motion, k, tau = case.oscillation.load, case.k_zc, case.material.tau
@@ -166,23 +157,8 @@ def test_the_undamped_natural_frequency_of_the_mass_is_refused_by_name():
         mdr.resolved(at_pole)
 
 
-def ball(r):
-    """A sphere of 1 mm that is one up to its equator, and not known beyond; without cancellation, and with it."""
-    u = np.asarray(r) / 1e-3
-    return 1e-3 * u**2 / (1 + np.sqrt(1 - u**2))
-
-
 def rounded_ball(r):
     return 1e-3 - np.sqrt(1e-6 - np.asarray(r) ** 2)
-
-
-@pytest.mark.filterwarnings("error")
-def test_a_shape_that_is_one_near_its_tip_only_carries_a_load():
-    motion = mdr.LoadOscillation(1e-2, 2e-3, OMEGA)
-    shapes = mdr.Profile(ball), mdr.Sphere(1e-3)
-    got, expected = (mdr.resolved(mdr.SlidingContact(one, ELASTIC, 0.4, motion)) for one in shapes)
-    assert_allclose(got.working_depth, expected.working_depth, rtol=1e-9)
-    assert_allclose(got.u_z_max, expected.u_z_max, rtol=1e-9)
 
 
 def test_a_depth_is_not_sought_beyond_the_rounding_of_a_shape(monkeypatch):

@@ -20,7 +20,6 @@ HORN = {
     "oscillation": {"frequency": 20e3, "load": 5.0, "du_z": 2e-6},
 }
 HELD = HORN | {"oscillation": HORN["oscillation"] | {"hold": "load"}}
-HARD = {"model": "Elastic", "E": 3e9, "nu": 0.4}
 
 
 def test_a_body_and_a_tapping_contact_are_held_in_a_march():
@@ -118,16 +117,6 @@ def test_what_is_held_in_python_says_of_what():
         still_held({"hold": "load"}, [])
     assert still_held({"load": 5.0, "hold": "load"}, ["oscillation.u_z0"]) == {}
     assert still_held({"load": 5.0, "hold": "load"}, ["load"]) == {"hold": "load"}
-
-
-def test_a_load_alone_beside_a_shake_is_constant():
-    for alone, motion in (({"load": 50.0}, mdr.ConstantLoad(50.0)), ({"u_z0": 2e-6}, mdr.ConstantDepth(2e-6))):
-        tables = HORN | {"oscillation": alone, "shake": {"frequency": 20e3, "du_x": 8e-6}}
-        tables["material"] = HARD
-        assert case_of(tables).case.oscillation == motion
-        axes = {"axes": {"oscillation": [alone]}, "quantities": ["mean_F_N"]}
-        if "u_z0" in alone:
-            assert study_from(tables | axes).axes["oscillation"] == [motion]
 
 
 def test_a_shape_that_ends_is_held_as_far_as_it_reaches():

@@ -112,14 +112,6 @@ def test_unsettled_points_are_hollow_and_their_error_shows():
     assert not plots.plot_curve(made_up_curve()).containers
 
 
-def test_several_curves_share_given_axes():
-    _, ax = plt.subplots()
-    curves = [made_up_curve(static=s) for s in np.linspace(0.1, 0.4, 9)]
-    assert plots.plot_curve(curves, ax, labels=[f"case {i}" for i in range(9)]) is ax
-    assert len(legend_texts(ax)) == 10
-    assert len({str(line(ax, f"case {i}").get_color()) for i in range(9)}) == 9
-
-
 @pytest.mark.parametrize("v_c", [np.inf, np.nan, None, 0.0])
 def test_without_a_finite_v_c_the_axis_is_the_velocity_itself(v_c):
     ax = plots.plot_curve([made_up_curve(v_c=v_c), made_up_curve()], labels=["a", "b"])
@@ -168,11 +160,6 @@ def test_spring_map_of_one_spring_out_of_order_and_of_a_long_record():
     assert set(np.unique(cells[2])) == {FREE, STICK}
     run.x, run.state = run.x[:1], run.state[:, :1]
     plots.plot_spring_map(run).figure.canvas.draw()
-
-
-def test_modes_follow_the_library():
-    State = pytest.importorskip("mdr").State
-    assert [name for name, _ in plots.MODES] == [State(i).name.lower().replace("_", " ") for i in range(4)]
 
 
 def test_traces_show_forces_and_feet():
@@ -256,19 +243,6 @@ def test_prefix(largest, expected):
     factor, unit = plots.prefix([0.0, -largest, np.nan], "m")
     assert unit == expected
     assert factor == pytest.approx(10.0 ** {"µm": 6, "mm": 3, "m": 0, "km": -3, "pm": 12}[expected])
-
-
-def test_a_force_that_turns_is_drawn_between_both_limits():
-    shake = mdr.InPlaneOscillation(omega=300.0, du_x=3e-5, phi_x=1.5)
-    depth = mdr.NormalOscillation(u_z0=20e-6, du_z=10e-6, omega=300.0)
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
-    run = mdr.slide(case, -2e-3, record=1, n_springs=32, steps_per_period=64)
-    ax = plots.plot_forces(run)
-    assert f"mean, {run.mean_F_x / (0.4 * run.mean_F_z):.3g} " in legend_texts(ax)[0]
-    low, high = ax.get_ylim()
-    assert low < 0 < high
-    limits = [line.get_ydata() for line in ax.lines if len(line.get_ydata()) == 64]
-    assert any(np.all(y <= 0) for y in limits)
 
 
 @pytest.mark.parametrize("back", [None, -0.1])

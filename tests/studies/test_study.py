@@ -79,18 +79,6 @@ def test_print_tells_axes_quantities_and_what_went_wrong(study):
     ]
 
 
-def test_print_tells_the_most_frequent_reasons():
-    def of(case):
-        if case.mu_0 < 0.5:
-            return 1.0
-        raise ValueError("abcdefghijklmnopqrstuvwxyz"[round(10 * case.mu_0)] * 3 if case.mu_0 < 1.45 else "slippery")
-
-    axes = {"mu_0": [0.4, *(0.5 + 0.1 * k for k in range(12))]}
-    lines = str(mdr.sweep(RIGID, axes, quantities=[mdr.Quantity("own", "-", of)])).splitlines()
-    assert lines[2:4] == ["  1 done, 12 failed", "    2: own: slippery"]
-    assert lines[-1] == "    7: for 7 other reasons"
-
-
 # --- files ---
 
 #: of many kinds: with letters beyond ASCII, without shape or units, with points that are missing

@@ -25,11 +25,10 @@ from validation import (
     vector_springs,
     waveforms,
 )
-from validation.cases import RADIUS, SHAPES, contact, driven
+from validation.cases import SHAPES, contact
 from validation.generalisation import finite_amplitude, indentation
-from validation.generalisation.finite_amplitude import FEW, KELVIN, RATIOS, RIDGE, grid, measure
+from validation.generalisation.finite_amplitude import FEW, measure
 from validation.half_space import benchmarks, tables
-from validation.rigid_pull import leading_term, read_off
 from validation.sequel import at_rest, energy, full_slip
 
 
@@ -103,15 +102,6 @@ def test_motions_that_move_apart_would_be_seen(monkeypatch):
     assert not next(uniqueness._distance_checks([uniqueness.Ends(system, ())])).held
 
 
-def test_the_full_grid_loses_contact_with_every_shape():
-    known = grid("full")
-    assert len(set(known)) == len(known) == 28 + len(KELVIN) + len(RIDGE)
-    for T in (0.0, 1.0):
-        assert {s for s, alpha, loss, _ in known if alpha == 1.3 and loss == T} == set(finite_amplitude.SHAPES)
-    assert {ratio for *_, ratio in known} == {*RATIOS, 2.0}
-    assert all(driven(*knobs).oscillation.du_z > 0 for knobs in known)
-
-
 def test_a_half_space_whose_coupling_is_off_is_seen(monkeypatch):
     """Dundurs' beta two parts in a hundred off: a bonded punch is too stiff by two parts in a thousand."""
     right = benchmarks.body
@@ -159,37 +149,6 @@ def test_slip_across_that_does_something_by_itself_would_be_seen():
     assert all(check.held for check in transverse_slip._checks([right, below]))
     wrong = [replace(right, along=1e-4, coupled=1e-4), replace(below, uncoupled=1e-3, along=0.029)]
     assert not any(check.held for check in transverse_slip._checks(wrong))
-
-
-def test_all_shapes_touch_over_the_same_disc():
-    radii = [shape.contact_radius(20e-6) for shape in SHAPES.values()]
-    np.testing.assert_allclose(radii, RADIUS, rtol=1e-14)
-    stiffness = [contact(shape, 0.1, 1.0, k_ratio=2.0).pull.k_x for shape in SHAPES]
-    np.testing.assert_allclose(stiffness, 2 * 8000 / 1.5, rtol=1e-13)  # kappa = 1.5 at nu = 0.5
-
-
-def test_the_groups_of_a_spring_pull_are_met():
-    case = contact("cone", 0.1, 2.0, k_ratio=0.5, omega_0_ratio=1.7, damping_ratio=0.05)
-    omega = case.oscillation.omega
-    got = case.T, case.alpha, case.pull.k_x / case.k_xc, case.pull.omega_0 / omega, case.pull.damping_ratio
-    np.testing.assert_allclose(got, (2.0, 0.1, 0.5, 1.7, 0.05), rtol=1e-14)
-    with pytest.raises(ValueError, match="mass"):
-        contact("cone", 0.1, k_ratio=0.5, damping_ratio=0.05)
-
-
-def test_a_leading_term_is_found_under_its_successors():
-    x = np.geomspace(1e-4, 1e-3, 25)
-    found = leading_term(x, 0.3 * x**1.5 * (1 + 2 * np.sqrt(x) - x + x**2), 1 / 2)
-    assert found.power == pytest.approx(1.5, abs=5e-6)
-    assert found.coefficient == pytest.approx(0.3, rel=1e-4)
-
-
-def test_a_curve_is_read_off_where_it_has_come_close():
-    case = contact("cone", 0.3)
-    v = read_off(case, 1e-3)
-    assert 0.9 < v < 1
-    found = rigid_pull.average_friction(case, v * rigid_pull.mdr.critical_velocity(case))
-    assert float(found.cof) == pytest.approx(case.mu_0 * (1 - 1e-3), rel=1e-9)
 
 
 def test_a_closed_form_that_is_off_is_seen_by_the_runs(monkeypatch):
