@@ -1,8 +1,7 @@
 """`mdr find` and `mdr tolerance`: the answers of the functions, with units, as text, JSON and files."""
 
-import json
-
 import pytest
+from answers import json_of
 from numpy.testing import assert_allclose
 
 import mdr
@@ -35,8 +34,7 @@ def sled(tmp_path):
 
 def test_find(capsys, sled):
     wish = ["--v-0", "10mm/s", "--cof", "0.5", "mu_0", "--within", "0.1", "um", "5 um"]
-    assert main(["find", sled, "du_z", *wish, "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
+    answer = json_of(capsys, ["find", sled, "du_z", *wish, "--json"])
     assert (answer["path"], answer["unit"]) == ("oscillation.du_z", "m")
     said = read_said(sled)
     assert answer["values"] == list(mdr.find(said.case, "du_z", v_0=0.01, cof=0.15, within=(1e-7, 5e-6)).values)
@@ -48,8 +46,10 @@ def test_find(capsys, sled):
 
 def test_tolerance(capsys, sled, tmp_path):
     folder = tmp_path / "out"
-    assert main(["tolerance", sled, "--v-0", "10mm/s", "--by", "5%", "-o", str(folder), "--json"]) == 0
-    answer, said = json.loads(capsys.readouterr().out), read_said(sled)
+    answer, said = (
+        json_of(capsys, ["tolerance", sled, "--v-0", "10mm/s", "--by", "5%", "-o", str(folder), "--json"]),
+        read_said(sled),
+    )
     found = mdr.tolerance(said.case, 0.01, 0.05, held=said.held)
     assert {path: tuple(pair) for path, pair in answer["cof"].items()} == found.cof
     assert_allclose(answer["inputs"]["load"], [4.75, 5.25])

@@ -1,6 +1,5 @@
 """`mdr explore` until its page is served: what it refuses, and what it prints. The page itself: tests/explorer/."""
 
-import json
 import logging
 import socket
 import sys
@@ -9,6 +8,7 @@ from types import SimpleNamespace
 
 import matplotlib as mpl
 import pytest
+from answers import json_of
 from conftest import contact
 
 import mdr
@@ -51,8 +51,9 @@ def test_it_serves_until_an_interrupt(capsys, server):
 
 
 def test_it_opens_no_browser_and_speaks_to_machines_where_asked(capsys, server):
-    assert main(["explore", "--no-browser", "--json", "--port", "5100"]) == 0
-    assert json.loads(capsys.readouterr().out)["address"] == "http://127.0.0.1:5100/"
+    assert (
+        json_of(capsys, ["explore", "--no-browser", "--json", "--port", "5100"])["address"] == "http://127.0.0.1:5100/"
+    )
     assert "shows /" not in server
 
 

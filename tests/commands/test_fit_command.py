@@ -1,12 +1,12 @@
 """`mdr fit`: the table, the files and the JSON of a fit, and what wrong input is told."""
 
-import json
 import sys
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import numpy as np
 import pytest
+from answers import json_of
 from conftest import contact
 
 import mdr
@@ -36,8 +36,7 @@ def test_a_fit_is_printed_and_written(files, capsys):
 
 def test_machines_are_told_what_is_not_determined(files, capsys):
     arguments = ["--free", "mu_0", "material.tau", "--bounds", "material.tau=9e-4:1.1e-3", "--json"]
-    assert main([*files, *arguments]) == 0
-    told = json.loads(capsys.readouterr().out)
+    told = json_of(capsys, [*files, *arguments])
     tau, mu_0 = told["parameters"]["material.tau"], told["parameters"]["mu_0"]
     assert (tau["low"], tau["high"], tau["determined"], tau["unit"]) == (None, None, False, "s")
     assert mu_0["determined"]
@@ -68,6 +67,5 @@ def test_a_load_of_the_file_holds_while_the_modulus_is_fitted(files, capsys):
     rows = [f"{1e3 * v!r}, {one!r}, 1e-4" for v, one in zip(v_0.tolist(), cof.tolist(), strict=True)]
     Path("data.csv").write_text("\n".join(["v_0 [mm/s], cof, error", *rows]))
     Path("case.toml").write_text(text.replace("E = 3000000.0", "E = 2e6"))
-    assert main([*files, "--free", "material.E", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["parameters"]["material.E"]
+    found = json_of(capsys, [*files, "--free", "material.E", "--json"])["parameters"]["material.E"]
     assert found["value"] == pytest.approx(3e6, rel=1e-3)

@@ -1,7 +1,8 @@
 """`mdr half-space`: what it prints, writes and returns."""
 
-import json
 from dataclasses import replace
+
+from answers import json_of
 
 import mdr
 from mdr.__main__ import main
@@ -44,8 +45,7 @@ def test_it_tells_machines_and_an_unsettled_run_fails(tmp_path, capsys):
         "1",
         "--json",
     ]
-    assert main(line) == 1
-    told = json.loads(capsys.readouterr().out)
+    told = json_of(capsys, line, 1)
     assert (told["settled"], told["coupled"], told["n_periods"], told["cells"]) == (False, False, 1, 9)
     assert told["cof"] < 0 < told["cof_error"]
 

@@ -17,7 +17,7 @@ from mdr.case.contact import KINDS
 from mdr.case.paths import GROUPS, SET, facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest
-from mdr.explorer.lines import line_of, suits
+from mdr.explorer.lines import line_of
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import pictures_of
 from mdr.explorer.springs import DIRECTIONS, map_of
@@ -192,12 +192,6 @@ def test_the_run_lies_on_its_curve_and_the_line_on_the_points(state):
     drawn = np.isin(line["v_0"], picture.v_0)
     assert_array_equal(line["v_0"][drawn], picture.v_0)
     assert_allclose(line["cof"][drawn], picture.cof, rtol=1e-12)
-
-
-def test_an_axis_stays_while_what_is_shown_suits_it():
-    assert suits((0.0, 1.0), 0.3, 0.9)
-    assert not suits((0.0, 1.0), 0.3, 1.1)  # does not fit
-    assert not suits((0.0, 1.0), 0.3, 0.6)  # would be seen too small
 
 
 def test_only_the_latest_request_is_answered():

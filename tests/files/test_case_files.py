@@ -111,31 +111,6 @@ def test_a_file_takes_quantities_in_quotes():
     assert parse_case(text) == mdr.SlidingContact(mdr.Cone(np.deg2rad(2)), rubber, 0.5, motion, pull, shake)
 
 
-def test_another_quantity_is_refused_with_every_other_fault():
-    text = """
-        mu_0 = "1 N"
-        [indenter]
-        shape = "Cone"
-        theta_deg = "2 mm"
-        [material]
-        model = "Elastic"
-        E = "3 mm"
-        nu = 0.5
-        [oscillation]
-        frequency = "3 s"
-        u_z0 = "20 um"
-        du_z = "-2 um"
-    """
-    assert faults(text) == [
-        "[indenter] theta_deg wants deg (or °, rad), got '2 mm'",
-        "[material] E wants Pa (or kPa, MPa, GPa, N/mm2), got '3 mm'",
-        "[oscillation] frequency wants Hz (or mHz, kHz, MHz, rad/s), got '3 s'",
-        "[oscillation] du_z must be positive, got -2e-06 (amplitude of the depth in m; a depth that does "
-        "not oscillate is a ConstantDepth)",
-        "mu_0 wants a pure number, such as 0.1 or 10%, got '1 N'",
-    ]
-
-
 def test_every_fault_is_named_at_once():
     text = """
         mu_0 = -1
@@ -198,8 +173,6 @@ SINGLE = {
     "key of another table": (R, f"{R}\nk_x = 1", "[indenter] k_x is no key of Paraboloid; it belongs to [pull]"),
     "mu_0 below a table": (R, f"{R}\nmu_0 = 1", "[indenter] mu_0 is no key of Paraboloid; write it at the top"),
     "missing shape": (SHAPE, "", f"[indenter] shape is missing; choose one of {SHAPES}"),
-    "shape in capitals": (SHAPE, 'Shape = "Cone"', "[indenter] shape is missing, and Shape unknown; choose one of"),
-    "unknown shape": (SHAPE, 'shape = "Kone"', '[indenter] shape "Kone" is unknown; did you mean Cone?'),
     "function": (SHAPE, 'shape = "Profile"', '[indenter] shape "Profile": its shape is a Python function, which'),
     "shape no string": (SHAPE, "shape = 3", "[indenter] shape must be a name in quotes, got 3; choose one of"),
     "array of tables": ("[indenter]", "[[indenter]]", "[indenter] must be one table of keys, got an array"),
@@ -297,7 +270,6 @@ ALONE = [
 REFUSED = [
     *zip(ALONE, ("theta_deg wants", "tan_delta must not", "frequency wants", "theta must lie"), strict=True),
     ({"slope": "theta_deg = 1.5\ntheta = 0.02"}, "theta_deg and theta say the same"),
-    ({"slope": "theta_deg = 100"}, "theta must lie between 0 and 1.5708"),
     ({"slope": ""}, "theta is missing; or give theta_deg [deg]"),
     (
         {"shape": "Paraboloid", "slope": "theta_deg = 2"},
@@ -311,7 +283,6 @@ REFUSED = [
     ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "omega is missing; or give frequency"),
     ({"motion": "f = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "f is no key of NormalOscillation; did you mean frequency"),
     ({"motion": "frequency = 50\nload = 1\nu_z0 = 1e-5\ndu_z = 2e-6"}, "load and u_z0 say the same"),
-    ({"motion": "frequency = 50\nload = -1\ndu_z = 2e-6"}, "load must be positive"),
 ]
 
 

@@ -71,17 +71,6 @@ def test_scaled_motion_and_springs():
     assert scaled.drive.steps == STEPS
 
 
-def test_body_groups_are_those_of_the_oscillator():
-    case = contact("paraboloid", 3.0, 0.5, 0.7, 1.6, 0.15)
-    scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 32), STEPS, lump=False)
-    omega, unit = case.oscillation.omega, scaled.units.stiffness_x
-    assert_allclose(
-        [scaled.body.M, scaled.body.C, scaled.body.K],
-        np.array([case.pull.m * omega**2, case.pull.c_x * omega, case.pull.k_x]) / unit,
-    )
-    assert_allclose(math.sqrt(scaled.body.K / scaled.body.M), 1.6, rtol=1e-13)
-
-
 @pytest.mark.parametrize("chi", [None, 1.2])
 @pytest.mark.parametrize("body", [{}, BODIES["damped"], {"k_ratio": 0.7, "omega_0_ratio": math.inf}])
 @pytest.mark.parametrize("shape", SHAPES)

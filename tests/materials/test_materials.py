@@ -206,18 +206,3 @@ def test_a_case_of_one_pascal_reads_back():
             mdr.parse_case(text.replace('" Pa"', "").replace('"0.25 Pa"', "0.25").replace('"0.5 Pa"', "0.5"))
         scaled = mdr.parse_case(text.replace('"0.25 Pa"', "0.25\nE_0 = 2e6").replace('"0.5 Pa"', '0.5\nE_0 = "2 MPa"'))
         assert_allclose(scaled.material.instantaneous_modulus * 0.75, 2e6)
-
-
-def test_as_many_arms_as_asked_for():
-    omega = np.geomspace(1.0, 1e4, 41)
-    modulus = 1e6 * (1j * omega) ** 0.3  # a power law needs them all
-    for n_arms in (1, 5):
-        found = mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=n_arms)
-        assert len(found.arms) == n_arms
-    assert_allclose(mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=1).arms[0][1], 1e-2, rtol=1e-12)
-
-
-def test_a_power_law_beyond_the_arms_says_how_near_it_comes(monkeypatch):
-    monkeypatch.setattr("mdr.materials.prony_fit.MOST_ARMS", 12)
-    with pytest.raises(ValueError, match=r"error = 0\.0001 of the power law is not reached by 12 arms, only 0\.\d+:"):
-        mdr.Prony.power_law(modulus=3e6, exponent=0.5, omega=(2.0, 2e4), nu=0.5, error=1e-4)

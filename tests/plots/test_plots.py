@@ -238,13 +238,6 @@ def test_profile_takes_positions_or_a_record_of_springs():
         assert sum(len(d.get_segments()) for d in right.collections if hasattr(d, "get_segments")) == 6
 
 
-@pytest.mark.parametrize(("largest", "expected"), [(3e-6, "µm"), (1e-3, "mm"), (0.0, "m"), (2e4, "km"), (1e-30, "pm")])
-def test_prefix(largest, expected):
-    factor, unit = plots.prefix([0.0, -largest, np.nan], "m")
-    assert unit == expected
-    assert factor == pytest.approx(10.0 ** {"µm": 6, "mm": 3, "m": 0, "km": -3, "pm": 12}[expected])
-
-
 @pytest.mark.parametrize("back", [None, -0.1])
 def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
     v_0 = np.array([-0.02, -0.01, 0.01, 0.02])
@@ -293,13 +286,6 @@ def test_shaken_across_the_colour_of_a_slip_is_its_direction():
     assert legend_texts(above) == ["free", "stick"]
     assert "0 along the pull, 90 across" in bar.get_ylabel()
     assert_allclose(line(below, "$F_y$").get_ydata(), run.F_y)
-
-
-def test_maps_with_and_without_a_shake_across_have_one_bar():
-    fig = plots.plot_spring_maps([made_up_run(), shaken_across(), shaken_across()], ["still", "one", "two"])
-    assert [len(ax.collections) for ax in fig.axes[:3]] == [1, 2, 2]
-    assert len(fig.axes) == 4
-    assert [text.get_text() for text in fig.legends[0].get_texts()] == ["free", "stick", "slip"]
 
 
 def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():

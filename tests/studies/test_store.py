@@ -106,17 +106,6 @@ def test_another_process_may_merge_at_any_moment(part_done, whole, monkeypatch, 
     assert sorted(os.listdir(part_done)) == LEFT
 
 
-def test_two_may_merge_at_once(part_done, monkeypatch):
-    """The other has merged and cleared away, as a leftover, the very file that this one was about to move in."""
-    small(part_done)
-    data, real = (part_done / "study.nc").read_bytes(), os.replace
-    monkeypatch.setattr(os, "replace", lambda partial, path: (os.unlink(partial), real(partial, path)))
-    Store(part_done).merge(data)
-    (part_done / "study.nc").unlink()
-    with pytest.raises(mdr.studies.StudyError, match=r"study.nc cannot be written \(No such file"):
-        Store(part_done).merge(data)
-
-
 # --- stores that are of no use ---
 
 
@@ -223,17 +212,6 @@ def test_what_cannot_be_told_by_its_data_is_refused_in_a_store_alone(tmp_path, s
     assert not (tmp_path / "store").exists()
     found = small(None, **options)
     assert (found.complete, found.identity) == (True, "")
-
-
-def test_what_has_a_name_is_told_by_it(tmp_path):
-    """A function as a shape or a quantity; the case, which no file can carry, is told in words."""
-    case = replace(RIGID, indenter=mdr.Profile(lambda r: 100 * r**2, name="bowl"))
-    found = small(tmp_path, {"mu_0": [0.5]}, case, [mdr.Quantity("own", "m", depth)])
-    assert re.match(r"SlidingContact\(indenter=Profile\(f=<function .*name='bowl'", found.case)
-    assert " at 0x" not in found.case
-    case = replace(RIGID, indenter=mdr.Profile(lambda r: 200 * r**2, name="bowl"))
-    assert small(tmp_path, {"mu_0": [0.5]}, case, [mdr.Quantity("own", "m", len)])["own"] == found["own"] == [6e-6]
-    assert mdr.read_study(tmp_path) == found
 
 
 # --- disks that are full or cannot be written ---

@@ -1,25 +1,17 @@
-"""The independent twin: friction of an oscillating contact, written from the physics alone.
+"""The independent twin of a rigid pull: friction of an oscillating contact, written from the physics alone.
 
-Nothing here comes from the library. It is slow, it has no options but the
-physics, and its schemes differ from the library's march wherever another scheme exists.
-
-Units. Normal lengths are measured in du_z, tangential lengths in mu_0 kappa du_z, time in 1/omega,
-tangential stiffness in k_xc0 = 2 G* a(u_z0), normal forces in 2 E* a(u_z0) du_z, friction in mu_0 times
-that. Then
+Nothing here comes from the library. Normal lengths are measured in du_z, tangential lengths in mu_0 kappa du_z, time in
+1/omega, normal forces in 2 E* a(u_z0) du_z, friction in mu_0 times that. Then
 
     n              shape: profile g ~ x**n, so contact radius a(d) ~ d**(1/n); inf is the flat punch
     depth_ratio    u_z0 / du_z, above -1 (the depth is depth_ratio + cos t)
     v_hat          v_0 / (mu_0 kappa omega du_z), above 0
     T              omega tau of the Kelvin element; 0 is the elastic one
-    k_ratio        k_x / k_xc0
-    omega_0_ratio  omega_0 / omega with omega_0**2 = k_x / m
-    c_ratio        c_x omega / k_xc0
     h              (u_z0 - g) / du_z of one spring, whose indentation is w(t) = h + cos t
 
-One spring. Normal compression s(t) = max(0, sup over theta >= 0 of w(t - theta) exp(-theta / T)), normal
-force N = s + T s' in contact and 0 in free flight; shear e with |e + T e'| <= N, where e' = u_x' in stick
-and equality holds in slip. Over a period <e + T e'> = <e> and <N> = <s>, so a rigid pull has COF / mu_0 = 1
-- <s - e> / <s>, summed over the springs.
+One spring. Normal compression s(t) = max(0, sup over theta >= 0 of w(t - theta) exp(-theta / T)), normal force
+N = s + T s' in contact and 0 in free flight; shear e with |e + T e'| <= N, where e' = u_x' in stick and equality holds
+in slip. Over a period <N> = <s>, so an elastic rigid pull has COF / mu_0 = 1 - <s - e> / <s>, summed over the springs.
 """
 
 import math
@@ -211,98 +203,6 @@ def flat_punch_deficit(v_hat):
 
 
 # --- rigid pull, Kelvin -------------------------------------------------------------------------------------
-
-
-def kelvin_lag(h, v_hat, T):
-    """<p> of Kelvin springs under a rigid pull, p = s - e, and the kind of their motion (a small integer).
-
-    e + T e' <= s + T s' is p' >= -p / T, so p' = max(s' - v_hat, -p / T) in contact and p' = -p / T in
-    flight. Stick is D > 0, D = s' - v_hat + p / T. In contact s' = -sin t, and in stick and in slip alike D
-    rises exactly where sin t + T cos t < -v_hat, i.e. between the angles t_1 and t_2. So every change of
-    mode is bracketed:
-
-        until t_1: D falls (stick may end);  t_1 to t_2: D rises (stick may begin);  after t_2: D falls.
-
-    The period map of p is monotone and does not expand distances, and 0 <= p <= s, so its fixed point is
-    bracketed.
-    """
-    h = np.atleast_1d(np.asarray(h, dtype=float))
-    if v_hat >= 1:
-        return np.zeros_like(h), np.zeros(h.shape, dtype=int)
-    root, delta = math.hypot(1, T), math.atan(T)
-    t_1, t_2 = np.pi + math.asin(v_hat / root) - delta, TWO_PI - math.asin(v_hat / root) - delta
-    on, off = contact_times(h, T)
-    always = always_touches(h, T)
-    on, off = np.where(always, t_1, on), np.where(always, t_1 + TWO_PI, off)
-
-    def slip(t_0, p_0, t):
-        return p_0 * np.exp(-(t - t_0) / T)
-
-    def stick(t_0, p_0, t):
-        return p_0 + np.cos(t) - np.cos(t_0) - v_hat * (t - t_0)
-
-    def stick_area(t_0, p_0, t):
-        dt = t - t_0
-        return np.sin(t) - np.sin(t_0) + (p_0 - np.cos(t_0)) * dt - v_hat * dt**2 / 2
-
-    def drive(t, p):
-        return -np.sin(t) - v_hat + p / T
-
-    def falling(t_0, p_0, t_end):
-        """From t_0 to t_end while D falls: stick as long as D > 0, then slip."""
-        sticks = drive(t_0, p_0) > 0
-        still = drive(t_end, stick(t_0, p_0, t_end)) > 0
-        change = bracketed_root(lambda t: drive(t, stick(t_0, p_0, t)), t_0, t_end)
-        change = np.where(sticks, np.where(still, t_end, change), t_0)
-        p = stick(t_0, p_0, change)
-        p_end = slip(change, p, t_end)
-        return p_end, stick_area(t_0, p_0, change) + T * (p - p_end), sticks & (t_end > t_0)
-
-    def rising(t_0, p_0, t_end):
-        """From t_0 to t_end while D rises: slip as long as D < 0, then stick."""
-        slips = drive(t_0, p_0) <= 0
-        still = drive(t_end, slip(t_0, p_0, t_end)) <= 0
-        change = bracketed_root(lambda t: drive(t, slip(t_0, p_0, t)), t_0, t_end)
-        change = np.where(slips, np.where(still, t_end, change), t_0)
-        p = slip(t_0, p_0, change)
-        p_end = stick(change, p, t_end)
-        began = np.where(slips & ~still, 1, np.where(~slips, 2, 0)) * (t_end > t_0)
-        return p_end, T * (p_0 - p) + stick_area(change, p, t_end), began
-
-    def period(p_0):
-        first, second = np.clip(t_1, on, off), np.clip(t_2, on, off)
-        p_1, area_1, early = falling(on, p_0, first)
-        p_2, area_2, began = rising(first, p_1, second)
-        p_3, area_3, late = falling(second, p_2, off)
-        p_4 = slip(off, p_3, on + TWO_PI)
-        return p_4, area_1 + area_2 + area_3 + T * (p_3 - p_4), early + 2 * began + 6 * late
-
-    p_start = bracketed_root(lambda p: period(p)[0] - p, np.zeros_like(h), h + np.cos(on))
-    _, area, kind = period(p_start)
-    return area / TWO_PI, np.where(always, 100, kind)
-
-
-@lru_cache
-def kelvin_breaks(depth_ratio, v_hat, T, n_scan=600):
-    """Values of h at which the kind of motion of a Kelvin spring changes: a scan, then finer ones."""
-    top = min(depth_ratio, math.hypot(1, T))
-    u = (1 - np.cos(np.pi * np.arange(1, n_scan) / n_scan)) / 2
-    h = -1 + (top + 1) * u
-    kind = kelvin_lag(h, v_hat, T)[1]
-    at = np.flatnonzero(kind[1:] != kind[:-1])
-    low, high, kind_low = h[at], h[at + 1], kind[at]
-    for _ in range(3 if at.size else 0):  # to 1e-8: a misplaced break costs its square
-        inner = low + (high - low) * np.arange(1, 64)[:, None] / 64
-        same = (kelvin_lag(inner.ravel(), v_hat, T)[1].reshape(inner.shape) == kind_low).cumprod(axis=0).sum(axis=0)
-        low, high = low + (high - low) * same / 64, low + (high - low) * (same + 1) / 64
-    return (*low, math.hypot(1, T))
-
-
-def rigid_kelvin_cof(n, depth_ratio, v_hat, T, n_nodes=20, levels=5):
-    """COF / mu_0 of a Kelvin power-law indenter under a rigid pull, v_hat > 0, T > 0."""
-    breaks = [] if math.isinf(n) else kelvin_breaks(depth_ratio, v_hat, T)
-    h, dx = springs(n, depth_ratio, breaks, n_nodes, levels=levels)
-    return 1 - (kelvin_lag(h, v_hat, T)[0] @ dx) / (mean_compression(h, T) @ dx)
 
 
 # --- full slip of the whole array ---------------------------------------------------------------------------
