@@ -21,17 +21,6 @@ COS = np.ones(1, dtype=complex)  # of the depth
 # --- the normal force ---
 
 
-@pytest.mark.parametrize("depth_ratio", [3.0, -0.4])
-@pytest.mark.parametrize("shape", SHAPES)
-def test_an_elastic_force_is_that_of_the_depth_at_the_instant(shape, depth_ratio):
-    case = contact(shape, depth_ratio)
-    motion = motion_of(case, 64)
-    u_z = case.oscillation.u_z(motion.t)
-    expected = case.indenter.force(u_z, case.material.E_star)
-    assert_allclose(motion.F_N, expected, rtol=1e-12, atol=1e-14 * motion.F_N.max())
-    assert np.array_equal(motion.in_contact, u_z > 0)
-
-
 @pytest.mark.parametrize("T", [0.3, 1.0, 2.5])
 def test_force_of_a_kelvin_punch_that_keeps_contact_is_eq_4(T):
     case = contact("flat", 3.0, T)

@@ -188,14 +188,6 @@ def test_all_slips_above_the_greatest_closing_speed(shape, Z, T):
 
 
 @pytest.mark.parametrize("T", [0.0, 0.5])
-def test_what_moves_depth_and_place_alike_takes_no_friction(T):
-    """The lag s - e depends on z - x alone, as long as no spring slips back and contact is kept."""
-    more, v = shaken(0.2, 2.0), np.array([0.2, 0.6])
-    one, other = (1 - cof(pull_of("flat", 4.0, Z, X, T), v) for Z, X in ((COS, NONE), (COS + more, more)))
-    assert_allclose(one, other, rtol=0, atol=ERROR)
-
-
-@pytest.mark.parametrize("T", [0.0, 0.5])
 def test_the_stated_error_holds(T, monkeypatch):
     pulls = [pull_of(shape, 0.9, COS, shaken(1.2, 0.7), T) for shape in ("cone", "paraboloid")]
     v = np.geomspace(1e-3, 1, 12)

@@ -65,16 +65,6 @@ def test_any_waveform_is_its_definition():
             )
 
 
-def test_an_array_is_joined_by_straight_lines():
-    rng = np.random.default_rng(4)
-    samples = rng.normal(size=9)
-    nodes = np.arange(10) / 9
-    joined = laws.waveform_loss(lambda x: np.interp(x, nodes, np.append(samples, samples[0])), BETA)
-    np.testing.assert_allclose(laws.waveform_loss(samples, BETA), joined, rtol=0, atol=4e-11)
-    steepest = 9 * np.max(np.roll(samples, -1) - samples) / (samples.mean() - samples.min())
-    assert laws.waveform_critical(samples) == pytest.approx(steepest, rel=1e-12)
-
-
 def test_scale_offset_and_shift_drop_out_and_a_frequency_is_a_velocity():
     w = series(3, np.random.default_rng(5))
     known = laws.waveform_loss(w, BETA)

@@ -1,15 +1,20 @@
-"""What a command answers to machines."""
+"""What a command says to people and to machines."""
 
 import json
 
 from mdr.__main__ import main
 
 
+def words_of(capsys, command, status=0):
+    """Standard output and standard error of a command that ends with this status: .out and .err."""
+    assert main(command) == status
+    return capsys.readouterr()
+
+
 def json_of(capsys, command, status=0):
-    """The answer of a command with --json, which ends with this status; JSON has neither NaN nor infinity."""
+    """The answer of a command with --json; JSON has neither NaN nor infinity."""
 
     def refuse(literal):
         raise AssertionError(literal)
 
-    assert main(command) == status
-    return json.loads(capsys.readouterr().out, parse_constant=refuse)
+    return json.loads(words_of(capsys, command, status).out, parse_constant=refuse)

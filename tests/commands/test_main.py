@@ -13,7 +13,7 @@ from shutil import which
 
 import numpy as np
 import pytest
-from answers import json_of
+from answers import json_of, words_of
 from conftest import contact
 from numpy.testing import assert_allclose
 from PIL import Image
@@ -79,8 +79,7 @@ def test_velocity_for_machines(capsys, punch):
 
 
 def test_a_resonance_is_an_answer(capsys, resonant):
-    assert main(["velocity", resonant]) == 0
-    assert "infinite, friction is below mu_0 at every velocity" in capsys.readouterr().out
+    assert "infinite, friction is below mu_0 at every velocity" in words_of(capsys, ["velocity", resonant]).out
     assert json_of(capsys, ["velocity", "--json", resonant])["v_c"] == "inf"
 
 
@@ -198,8 +197,7 @@ def test_a_run_that_does_not_settle_fails(capsys, punch, monkeypatch):
     case = read_case(punch)
     loose = mdr.slide(case, 1e-5, n_springs=32, steps_per_period=64, n_periods=2, record=1)
     monkeypatch.setattr("mdr.slide", lambda *args, **knobs: replace(loose, settled=False, why="it drifts"))
-    assert main(["run", punch, "--v-0", "1e-5"]) == 1
-    assert capsys.readouterr().err == "mdr: the run did not settle\n  it drifts\n"
+    assert words_of(capsys, ["run", punch, "--v-0", "1e-5"], 1).err == "mdr: the run did not settle\n  it drifts\n"
 
 
 # --- standard input, and what goes before the command ---
@@ -215,14 +213,11 @@ def test_a_case_may_come_from_standard_input(capsys, monkeypatch, tmp_path):
     given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
     assert json_of(capsys, ["velocity", "-", "--json"])["v_c"] == mdr.critical_velocity(read_case(EXAMPLE))
     given(monkeypatch, "mu_0 = ")
-    assert main(["verdict", "-"]) == 2
-    assert capsys.readouterr().err.startswith("mdr: standard input: line 1: ")
+    assert words_of(capsys, ["verdict", "-"], 2).err.startswith("mdr: standard input: line 1: ")
     given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
-    assert main(["sweep", "-", "--json"]) == 2
-    assert "mdr: standard input: [axes] is missing" in capsys.readouterr().err
+    assert "mdr: standard input: [axes] is missing" in words_of(capsys, ["sweep", "-", "--json"], 2).err
     monkeypatch.setattr(sys, "stdin", None)
-    assert main(["velocity", "-"]) == 2
-    assert capsys.readouterr().err == "mdr: standard input: cannot be read: it is closed\n"
+    assert words_of(capsys, ["velocity", "-"], 2).err == "mdr: standard input: cannot be read: it is closed\n"
 
 
 # --- completion ---
@@ -274,15 +269,13 @@ class MadeUpVerdict:
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
     monkeypatch.setattr("mdr.measure_critical_velocity", lambda case, direction, accuracy: found)
-    assert main(["measure", EXAMPLE]) == status
-    assert found.why in capsys.readouterr().out
+    assert found.why in words_of(capsys, ["measure", EXAMPLE], status).out
     assert json_of(capsys, ["measure", EXAMPLE, "--json"], status)["v_c"] == found.v_c
 
 
 def test_verdict(capsys, monkeypatch):
     monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: MadeUpVerdict())
-    assert main(["verdict", EXAMPLE]) == 0
-    assert capsys.readouterr().out.splitlines() == [
+    assert words_of(capsys, ["verdict", EXAMPLE]).out.splitlines() == [
         "Eq. (15) is good: one element",
         "Eq. (15)   0.1 m/s     contact stiffness at the mean depth",
         "full slip  0.1 m/s     any amplitude, all harmonics of the force",
@@ -327,8 +320,7 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
     found.good = None
     monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: found)
-    assert main(["verdict", EXAMPLE]) == status
-    assert "good       undefined" in capsys.readouterr().out
+    assert "good       undefined" in words_of(capsys, ["verdict", EXAMPLE], status).out
     answer = json_of(capsys, ["verdict", EXAMPLE, "--json"], status)
     assert (answer["eq_15"], answer["full_slip"], answer["measured"], answer["good"]) == ("inf", None, measured, None)
 
@@ -435,8 +427,7 @@ def test_a_wrong_file_is_status_2_with_every_fault(capsys, tmp_path):
 def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("")
-    assert main(["curve", EXAMPLE, "-o", str(blocked)]) == 2
-    assert f"mdr: {blocked}: no folder to write to: " in capsys.readouterr().err
+    assert f"mdr: {blocked}: no folder to write to: " in words_of(capsys, ["curve", EXAMPLE, "-o", str(blocked)], 2).err
     (tmp_path / "out" / "curve.csv").mkdir(parents=True)
     assert main(["curve", EXAMPLE, "-o", str(tmp_path / "out")]) == 2
     assert "curve.csv: is a folder, where a file is to be written" in capsys.readouterr().err
@@ -456,8 +447,7 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
         raise failure
 
     monkeypatch.setattr("mdr.verdict", fail)
-    assert main(["verdict", EXAMPLE]) == status
-    assert capsys.readouterr().err == message
+    assert words_of(capsys, ["verdict", EXAMPLE], status).err == message
 
 
 # --- as a program ---
@@ -506,8 +496,7 @@ def test_what_is_unlikely_is_said_on_standard_error_and_computed(tmp_path, capsy
     assert "Eq. (" in said.out
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        assert main(["velocity", str(file)]) == 0
-    assert capsys.readouterr().err == ""
+        assert words_of(capsys, ["velocity", str(file)]).err == ""
 
 
 def test_what_a_shaken_contact_holds_at_rest_is_told_to_machines(capsys, punch):

@@ -10,11 +10,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr.element.kernels import N_HEAD
-from mdr.spring.contact import Look
-from mdr.spring.energies import FRICTION_LOSS, N_SUMS, NORMAL_VISCOUS, SHEAR_VISCOUS, nodes_of
-from mdr.spring.path import Path
-from mdr.spring.row import row_in_plane
-from mdr.spring.times import tools_for
 
 BALL, DEPTH, MU_0, DT = mdr.Paraboloid(R=5e-3), 40e-6, 0.5, 1e-3
 REACH = MU_0 * ELASTIC.mindlin_ratio * DEPTH  #: way that brings the deepest spring from rest to slip
@@ -64,11 +59,6 @@ def test_partial_slip_is_that_of_the_closed_form():
     contact = element(n_springs=256)
     F, _ = contact.step(contact.at_rest((0, 0, d)), 0.0, (way, 0, d))
     assert_allclose(F[[0, 2]], [exact.F_x, exact.F_z], rtol=3e-5)  # third order in 1/n, of the jumps at two edges
-
-
-def test_elastic_contacts_know_no_time():
-    one, two = (follow(element(), walk(), dt=dt)[0] for dt in (0.0, 7.0))
-    assert_array_equal(one, two)
 
 
 @every_material
@@ -187,30 +177,6 @@ def test_names_of_a_state():
 # --- energy and invariance ---
 
 
-@every_material
-def test_what_is_lost_is_what_friction_and_material_take(material):
-    """Work less what is stored, against the losses from their own definitions, by a close look at the same steps."""
-    contact, us = element(material), walk()
-    row, rows = contact._row, contact._rows
-    law, n = row.law, row.gap.size
-    sums, units = np.zeros(N_SUMS), np.array([row.length_x, row.length_x, row.length_z])
-    state = contact.at_rest((0, 0, DEPTH / 2))
-    for u in us:
-        springs, h = state[N_HEAD:-1].copy(), DT
-        s, e_x, e_y = springs.reshape(3, rows, n)
-        (x, y, z), start = (u - state[:3]) / units / h, state[:3] / units
-        nodes, way = nodes_of(h, law.modes, law.arms), complex(x, y)
-        look = Look(nodes, sums, np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
-        path, tools = Path(start[2], z, 0.0, way, 0j), tools_for(law, h, in_plane=True)
-        row_in_plane(s, e_x + 1j * e_y, row.gap, row.w, path, z, way, *law, tools, None, look)
-        before, (_, state) = contact.dissipated(state), contact.step(state, h, u)
-        assert contact.dissipated(state) >= before - 1e-12 * contact.stored(state)
-    unit_x, unit_z = row.force_x * row.length_x, row.force_z * row.length_z
-    lost = unit_x * (sums[FRICTION_LOSS] + sums[SHEAR_VISCOUS]) + unit_z * sums[NORMAL_VISCOUS]
-    # slip that turns by a radian a step: areas of fourth order, losses by Simpson's rule
-    assert_allclose(contact.dissipated(state), lost, rtol=1e-5 if material is ELASTIC else 1e-3)
-
-
 def test_the_loop_of_force_and_way_is_what_is_lost():
     """Of steady loops in one direction at one depth, by the trapezoidal rule."""
     contact, n = element(), 4000
@@ -253,17 +219,6 @@ def test_the_tangent_is_that_of_the_force(material, way, tol):
     assert_allclose(K, known, rtol=0, atol=tol * np.abs(K).max())
 
 
-def test_the_tangent_of_stick_and_of_slip_in_closed_form():
-    flat, a = element(shape=mdr.FlatPunch(a=1e-3)), 1e-3
-    rest, k_x, k_z = flat.at_rest((0, 0, DEPTH / 2)), 2 * a * ELASTIC.G_star, 2 * a * ELASTIC.E_star
-    for x, known in ((0.1, np.diag([k_x, k_x, k_z])), (2.0, [[0, 0, MU_0 * k_z], [0, np.nan, 0], [0, 0, k_z]])):
-        K = flat.step(rest, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
-        known = np.array(known)
-        known[np.isnan(known)] = K[1, 1]
-        assert_allclose(K, known, rtol=0, atol=1e-8 * k_z)
-        assert 0 < K[1, 1] <= k_x * (1 + 1e-8)  # a slip that turns stiffens against it
-
-
 @every_material
 def test_a_spring_that_touches_soon_is_not_in_the_tangent(material):
     """Approach that ends nearer before a touch than a host can tell: dF_z/du_z is that of the springs in contact."""
@@ -283,16 +238,6 @@ def one_sided(contact, state, u, j, d):
     """dF/du_j by a difference of second order over d and 2 d."""
     F, near, far = (contact.step(state, DT, u + k * d * (np.arange(3) == j))[0] for k in range(3))
     return (4 * near - far - 3 * F) / (2 * d)
-
-
-def test_the_tangent_of_a_spring_about_to_slip_is_that_of_stick():
-    """The springs of a ball reach the rim one by one: the next is nearer than 1e-6 of the reach."""
-    contact = element()
-    rest, d = contact.at_rest((0, 0, 0.7 * DEPTH)), 0.7
-    rim = np.sort(d - contact._row.gap[contact._row.gap < d])[10]
-    u = np.array([(rim - 2e-8) * REACH, 0, d * DEPTH])
-    K = contact.step(rest, 0.0, u, tangent=True)[2]
-    assert_allclose(K[:, 0], one_sided(contact, rest, u, 0, -1e-6 * REACH), rtol=0, atol=1e-6 * np.abs(K).max())
 
 
 def test_a_still_step_is_as_stiff_as_steps_beside_it():

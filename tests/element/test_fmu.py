@@ -165,16 +165,3 @@ def test_its_sources_compile_without_a_warning(monkeypatch, unit):
     contact, _, _ = unit
     monkeypatch.setattr("mdr.element.fmu.FLAGS", (*FLAGS, "-Wall", "-Wextra", "-Werror"))
     assert library(sources(contact, "pin", "a pin"), "pin")
-
-
-def test_a_state_that_is_set_while_it_is_initialised_is_that_state(unit):
-    _, _, instance = unit
-    one, us = instance(), walk()
-    forces = driven(one, us[:12])
-    kept = one.getFMUState()
-    one.reset()
-    one.setupExperiment(startTime=0.0)
-    one.enterInitializationMode()
-    one.setFMUState(kept)
-    assert_array_equal(one.getReal(F + LOST), forces[-1])
-    one.freeFMUState(kept)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.friction.free_parameters import Parameter
 
 TAU, MU_0 = 1e-3, 0.5
 CASE = mdr.SlidingContact(
@@ -46,13 +45,6 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
     assert 39 <= held < 48
 
 
-def test_without_errors_the_deviations_tell_them():
-    data = measured(0.01, 3)
-    one, two = (mdr.fit(START, d, ["mu_0", "tau"]) for d in (data, mdr.FrictionData(data.v_0, data.cof)))
-    assert two.values["mu_0"] == pytest.approx(one.values["mu_0"], rel=5e-3)
-    assert two.high["tau"] / two.low["tau"] == pytest.approx(one.high["tau"] / one.low["tau"], rel=0.5)
-
-
 def test_a_body_is_fitted_through_its_runs():
     v = mdr.critical_velocity(BODY) * np.linspace(0.1, 1.2, 8)
     start = replace(BODY, pull=replace(BODY.pull, k_x=7e3))
@@ -88,13 +80,6 @@ def test_bounds_hold_the_search_and_judge_the_interval():
     narrow = mdr.fit(CASE, data, ["tau"], bounds={"material.tau": (0.95e-3, 1.05e-3)})  # by either name
     assert narrow.undetermined == ("tau",)
     assert "wider than its bounds" in narrow.warnings[0]
-
-
-def test_a_search_keeps_to_what_the_case_can_have():
-    """A cone of 0.5 rad may be steepened by a factor of pi, not of 1000."""
-    case = replace(CASE, indenter=mdr.Cone(theta=0.5))
-    assert Parameter.of(case, "theta").high == pytest.approx(np.pi / 2, rel=1e-9)
-    assert Parameter.of(case, "nu").high == pytest.approx(0.5, rel=1e-9)
 
 
 SHAKEN = mdr.SlidingContact(

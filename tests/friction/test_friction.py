@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import by_groups, contact, unit_of_velocity
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 from twins import rigid_pull as reference
 
 import mdr
@@ -206,14 +206,6 @@ def test_any_periodic_depth_under_a_rigid_pull_has_a_closed_form(monkeypatch, na
     assert closed.cof[0] == closed.static_cof == mdr.static_cof(case)
 
 
-def test_any_order_and_repeats_are_kept():
-    case = contact("cone", 3.0)
-    v_0 = mdr.critical_velocity(case) * np.array([0.7, 0.0, 0.3, 0.7])
-    curve = mdr.cof_curve(case, v_0.tolist())
-    assert_array_equal(curve.v_0, v_0)
-    assert curve.cof[0] == curve.cof[3] > curve.cof[2] > curve.cof[1]
-
-
 #: lightly damped curved contacts beside 2 omega: the full-slip v_c is 240 to 2500 times Eq. (1)
 BESIDE = {
     "cone": ("cone", 0.3, 0.0, 0.65, 2.0001, 0.115, 1e-3),
@@ -234,13 +226,6 @@ def test_beside_a_resonance_there_is_a_critical_velocity(name):
     above, below = (mdr.slide(case, factor * full) for factor in (1.03, 0.97))
     assert abs(above.mu_0 - above.cof) <= above.cof_error
     assert below.stick_share > 0.01
-
-
-def test_an_oscillation_that_takes_next_to_nothing_away_has_a_critical_velocity():
-    motion, pull = mdr.NormalOscillation(2e-5, 2e-10, 300.0), mdr.SpringPull(2e4, 0.02, 4.0)
-    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.5), 0.5, motion, pull)
-    found = mdr.measure_critical_velocity(case)
-    assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
 
 
 # --- the verdict ------------------------------------------------------------------------------------------------
@@ -316,11 +301,3 @@ def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():
     found = mdr.measure_critical_velocity(contact("flat", 10.0, 0.0, 0.5, math.sqrt(1 / 3)))
     assert 0 <= found.low <= found.v_c <= found.high <= 1.1e-4 * unit_of_velocity(contact("flat", 10.0))
     assert "not told from zero" in found.why
-
-
-@pytest.mark.parametrize("n", [2, 3])
-def test_a_curved_contact_on_a_whole_multiple_has_no_critical_velocity(n):
-    """The n-th harmonic of its force drives the undamped body; Eq. (15) is finite and false."""
-    verdict = mdr.verdict(contact("paraboloid", 3.0, 0.0, 1.5, float(n)))
-    assert (verdict.measured, verdict.holds, verdict.full_slip) == (None, False, math.inf)
-    assert "a harmonic of the normal force drives the body" in verdict.why

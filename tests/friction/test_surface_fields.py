@@ -168,17 +168,6 @@ def test_an_indenter_that_does_not_touch_presses_nowhere():
     assert abs(late.u_z[0]) < 1e-3 * left.u_z[0]
 
 
-def test_a_contact_of_one_or_two_springs_carries_its_force():
-    case = mdr.SlidingContact(mdr.Cone(0.02), BODY, MU_0, mdr.NormalOscillation(0.0, DEPTH, 100.0))
-    run = mdr.slide(case, 0.3 * case.unit_velocity, n_springs=16, steps_per_period=8192, n_periods=1, record=1)
-    n_pressed = np.count_nonzero(run.f_z, axis=1)
-    for n, error in ((1, 1e-4), (2, 0.2), (3, 1e-4)):  # two springs make a line, and tell their edge to a cell
-        i = int(np.flatnonzero(n_pressed == n)[0])
-        whole = surface_fields(run, i=i)
-        r, weight = within(whole.contact_radius)
-        assert_allclose(weight @ surface_fields(run, r=r, i=i).pressure, whole.F_z, rtol=error)  # kinks
-
-
 def test_what_is_refused(pulled_run):
     with pytest.raises(ValueError, match="ascend"):
         from_line_load([1.0, 0.5], [1.0, 0.0], 0.1)

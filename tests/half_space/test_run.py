@@ -1,6 +1,5 @@
 """mdr.half_space.slide and curve: friction with its errors against closed forms, and what they refuse and say."""
 
-import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -115,25 +114,6 @@ def test_the_fields_of_the_last_period_have_its_forces(found):
     assert_array_equal(found.stick, (found.pressure > 0) & (np.hypot(found.q_x, found.q_y) < limit * (1 - 1e-5)))
     assert 0 < found.stick_share < 1
     assert_allclose(found.t[-1], ACROSS.period)
-
-
-def test_a_run_prints_compares_and_is_kept(found, tmp_path):
-    for word in ("COF across", "grid", "step", "cycle", "9 x 9 cells"):
-        assert word in str(found)
-    assert pickle.loads(pickle.dumps(found)) == found
-    found.to_csv(tmp_path / "run.csv")
-    table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
-    assert table.dtype.names[1:] == ("F_x_N", "F_y_N", "F_z_N")
-    assert_allclose(table["F_x_N"].mean(), found.mean_F_x)
-
-
-def test_a_run_draws_itself(found):
-    assert len(found.plot().axes) == 5  # four instants, and the colours
-    one = found.plot(0.5)
-    assert len(one.axes) == 2
-    assert "Arrows: traction" in one.get_suptitle()
-    with pytest.raises(ValueError, match="instant must lie between 0 and 1"):
-        found.plot(1.5)
 
 
 def test_a_curve_is_made_of_runs(found, tmp_path):

@@ -126,17 +126,6 @@ def test_nothing_is_kept_of_a_shape_that_can_be_changed():
     assert_allclose(bowl.contact_radius(2e-5), 2 * before, rtol=MAP)
 
 
-def test_threads_may_ask_one_shape():
-    def slow(r):
-        time.sleep(1e-4)  # another one begins
-        return r * r / 1e-2
-
-    shape, d = Profile(slow, r_max=4e-3), np.linspace(1e-6, 1e-4, 12)
-    with ThreadPoolExecutor(6) as pool:
-        a = list(pool.map(shape.contact_radius, d))
-    assert_allclose(a, np.sqrt(d * R), rtol=MAP)
-
-
 @pytest.mark.parametrize("place", [5e-4, 4.87e-4, 3.1e-4])
 @pytest.mark.parametrize("step", [1e-4, 1e-5, 3e-8])
 def test_a_step_that_is_not_named_is_refused(place, step):
@@ -147,3 +136,14 @@ def test_a_step_that_is_not_named_is_refused(place, step):
     steep = Profile(lambda r: 0.01 * r + np.maximum(r - place, 0), kinks=(place,))
     root = Profile(lambda r: 1e-3 * np.sqrt(np.maximum(r - place, 0)), kinks=(place,))
     assert steep.contact_radius(20e-6) > place < root.contact_radius(1e-6)
+
+
+def test_threads_may_ask_one_shape():
+    def slow(r):
+        time.sleep(1e-4)  # another one begins
+        return r * r / 1e-2
+
+    shape, d = Profile(slow, r_max=4e-3), np.linspace(1e-6, 1e-4, 12)
+    with ThreadPoolExecutor(6) as pool:
+        a = list(pool.map(shape.contact_radius, d))
+    assert_allclose(a, np.sqrt(d * R), rtol=MAP)

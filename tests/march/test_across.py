@@ -82,32 +82,6 @@ def test_no_velocity_is_critical():
     assert str(mdr.verdict(contact(0.005))).count("within 1 % of mu_0 at any velocity") == 1
 
 
-MATERIALS = {
-    "elastic": mdr.Elastic(3e6, 0.5),
-    "Kelvin": mdr.KelvinVoigt(3e6, 0.5, 0.4 / OMEGA),
-    "arms": mdr.Prony(3e6, ((3e6, 1 / OMEGA), (1.5e6, 5 / OMEGA)), 0.5),
-}
-
-
-@pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
-def test_hardly_shaken_across_it_is_the_scalar_run(material):
-    case = contact(1e-9, material=material, du_x=9e-6)
-    plain = replace(case, shake=replace(case.shake, du_y=0.0))
-    one, other = (mdr.slide(each, 1.5e-3, n_springs=32, steps_per_period=1024, accuracy=1e-8) for each in (case, plain))
-    assert one.cof == pytest.approx(other.cof, abs=1e-11 * MU_0)
-    assert other.cof < 0.97 * MU_0
-
-
-def test_at_rest_it_is_a_shake_along_seen_from_the_side():
-    vibration = mdr.NormalOscillation(DEPTH, 6e-6, OMEGA)
-    across = contact(1.5, oscillation=vibration)
-    along = replace(across, shake=mdr.InPlaneOscillation(OMEGA, du_x=across.shake.du_y))
-    side, front = (mdr.slide(one, 0.0, start="rest", n_springs=48, steps_per_period=256) for one in (across, along))
-    assert side.cof_y == pytest.approx(front.cof, abs=1e-12)
-    assert abs(front.cof) > 0.01
-    assert side.cof == pytest.approx(0, abs=1e-15)
-
-
 def test_a_body_without_mass_is_the_limit_of_light_ones():
     """What a small mass changes is of its order: half of it changes half as much."""
     case = contact(0.8, oscillation=mdr.NormalOscillation(DEPTH, 5e-6, OMEGA), at="pull", pull=BODY)

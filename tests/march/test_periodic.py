@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import contact
-from numpy.testing import assert_allclose
 from twins import rigid_pull as reference
 
 import mdr
@@ -99,16 +98,6 @@ def test_a_slow_beat_that_stick_trims_is_not_waited_for(angle, seed):
     step = trimmed(angle, 0.1)
     found = find(step, POINT + np.random.default_rng(seed).normal(size=6))
     assert np.linalg.norm(step(found.x) - found.x) < 1e-8
-
-
-def test_a_map_with_a_corner():
-    """Friction clips: the fixed point lies on the clipped side."""
-
-    def step(x):
-        return np.clip(linear(turning(0.98, 0.7))(x), -np.inf, POINT + 0.3)
-
-    found = find(step, POINT + 2.0)
-    assert_allclose(found.x, POINT, atol=1e-8)
 
 
 def test_no_fixed_point_is_no_answer():

@@ -9,7 +9,6 @@ from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.march.dimensionless import ScaledContact
 
 OMEGA, MU_0, NU, DEPTH = 300.0, 0.4, 0.4, 20e-6
 KAPPA = (2 - NU) / (2 * (1 - NU))
@@ -82,14 +81,6 @@ def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():
         mdr.slide(case, 1e-3)
 
 
-def test_a_core_of_one_height_is_one_spring():
-    """Of a flat punch, also under a shake; a round one slips back at its edge first, so that each spring is its own."""
-    for shape, lumped in (("flat", True), ("paraboloid", False)):
-        case = contact(shape, chi=0.5)
-        scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 64, lump=True)
-        assert (scaled.springs.gap.size == 1) == lumped
-
-
 # --- invariances of an elastic contact, whose springs know no time ---
 
 
@@ -150,9 +141,3 @@ def test_a_contact_that_slips_in_every_period_rests_in_one_state(T, body):
     runs = [mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest")]
     assert [(run.settled, run.kind, run.why) for run in runs] == [(True, "periodic", "")] * 2
     assert runs[0].cof == pytest.approx(runs[1].cof, abs=runs[0].cof_error + runs[1].cof_error)
-
-
-def test_a_contact_that_holds_moves_on_at_any_pull():
-    case = contact("flat", chi=0.5)
-    assert mdr.slide(case, 1e-3 * case.pace).kind == "periodic"
-    assert mdr.cof_curve(case, [0.0], method="march").why == ("",)  # the limit of slow pulls is one number

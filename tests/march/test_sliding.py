@@ -72,24 +72,6 @@ def test_a_period_costs_two_numbers_of_memory():
     assert peaks[1] - peaks[0] < 5 * 8 * (numbers[1] - numbers[0])  # the two, and what judges them
 
 
-@on_all
-def test_records_have_their_shapes(case):
-    run = coarse(case, 0.43, record=2)
-    n_t, n_x = 2 * 256, 96
-    for name in ("t", "u_x", "u_z", "F_x", "F_z"):
-        assert getattr(run, name).shape == (n_t,), name
-    assert run.x.shape == (n_x,)
-    assert run.e.shape == run.state.shape == (n_t, n_x)
-    assert run.state.dtype == np.uint8
-    assert set(np.unique(run.state)) <= set(State)
-    assert_allclose(run.t[-1], 12 * case.oscillation.period, rtol=1e-14)
-    assert_allclose(np.diff(run.t), case.oscillation.period / 256, rtol=1e-9)  # a difference of t, so rtol 1e-16 n_t
-    assert_allclose(run.u_z, case.oscillation.u_z(run.t), rtol=0, atol=1e-12 * abs(case.u_z_max))
-    assert np.all(np.diff(run.x) > 0)
-    nothing = coarse(case, 0.43)
-    assert all(getattr(nothing, name) is None for name in RECORDS)
-
-
 # --- the lumped core ----------------------------------------------------------------------------------------
 
 
@@ -121,15 +103,6 @@ def test_a_swing_from_rest_is_waited_for(groups, share, most, knobs):
     full_slip, rest = (mdr.slide(case, v_0, start=start, **knobs) for start in ("full_slip", "rest"))
     assert full_slip.cof < most * case.mu_0
     assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=rest.cof_error + full_slip.cof_error)
-
-
-def test_from_rest_nothing_is_stretched():
-    case = CONTACTS["rigid elastic"]
-    run = coarse(case, 0.1, 1, start="rest", record=1)
-    # until the first springs slip, every one has gone with the indenter: e = v_0 t where it sticks from the start
-    sticking = np.all(run.state[:40, :8] == State.STICK, axis=1)
-    assert sticking.sum() > 10
-    assert_allclose(run.e[:40][sticking][:, 0], run.v_0 * run.t[:40][sticking], rtol=1e-12)
 
 
 # --- the COF ------------------------------------------------------------------------------------------------

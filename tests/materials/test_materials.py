@@ -154,19 +154,11 @@ def test_tables_of_arms(tmp_path):
     text = '[material]\nmodel = "Prony"\nE_inf = 1e6\narms = [[2e6, 0.01], [3e6, 1.0]]\nnu = 0.3\n'
     case.write_text(text, encoding="utf-8")
     assert mdr.Prony.read(case) == body
-    for content, words in (
-        (b"tau,E\n1,2\n", "the header names no E_j: tau, E"),
-        (b"E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
-        (b"E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
-        (b"E_j,tau_j\n1e6,\xff\n", "line 2 is not UTF-8"),
-    ):
-        table.write_bytes(content)
-        with pytest.raises(ValueError, match=rf"arms\.csv: .*{words}"):
-            mdr.Prony.read(table, nu=0.3)
+    table.write_text("E_j,tau_j\n-1e6,1\n")
+    with pytest.raises(ValueError, match=r"arms\.csv: .*line 2: must have E_j >= 0 Pa and tau_j > 0 s"):
+        mdr.Prony.read(table, nu=0.3)
     for text, words in (
-        ("material = 3\n", "must be one table"),
-        ("E_inf = 1.0\narms = 3\nnu = 0.3\n", r"arms\.toml: .*arms must be a sequence"),
-        ("E_inf = 1.0\n", "arms is missing"),
+        ("E_inf = 1.0\n", r"arms\.toml: .*arms is missing"),
         ('model = "Elastic"\n', 'model "Elastic" is not Prony'),
         ("E_inf = 1.0\nE_o = 2.0\n", "E_o is no key of Prony; there are model, E_inf, arms, nu, tau"),
     ):

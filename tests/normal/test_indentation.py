@@ -85,23 +85,6 @@ def test_an_elastic_contact_has_no_memory():
 # --- Ting ---
 
 
-def test_a_second_press_meets_the_relaxed_surface():
-    body = MATERIALS["Kelvin"]
-    t = np.array([0, 1e-4, 1e-4, 5e-3, 5e-3 + 1e-6])
-    u_z = DEPTH * np.array([1, 1, 0, 0, 1.0])
-    still = u_z[1] * np.exp(-(t[3] - t[2]) / TAU)  # of the released spring in the centre
-    t, u_z = (
-        np.append(t[:4], t[3] + np.array([1e-5, 2e-5, 3e-5])),
-        np.append(u_z[:4], still * np.array([0.9, 0.99, 1.01])),
-    )
-    run = indent(SHAPES["paraboloid"], body, t, u_z)
-    assert np.all(run.F_z[2:6] == 0)
-    assert run.F_z[6] > 0
-    flat = indent(SHAPES["flat"], body, t, u_z)
-    assert np.all(flat.F_z[2:6] == 0)
-    assert flat.F_z[6] > 0
-
-
 @pytest.mark.parametrize("material", ["Kelvin", "standard", "arms", "arms and dashpot"])
 def test_after_any_tapping_contact_is_a_disc_and_force_settles_with_the_samples(material):
     """Loss and late return many times over; a spring that misses its return would leave a ring, or a wrong force."""

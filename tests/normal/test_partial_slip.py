@@ -62,12 +62,6 @@ def test_a_loop_closes_and_costs_its_area(shape, share):
     assert abs(loop.loss) == pytest.approx(abs(area), abs=5e-7 * rectangle)
 
 
-def test_the_slow_pull_knows_the_long_time_modulus_only():
-    body = mdr.StandardLinearSolid(E_inf=3e6, E_1=9e6, tau_1=1.0, nu=0.3)
-    one, two = (partial_slip(mdr.Cone(theta=0.02), m, MU_0, DEPTH, FULL_SLIP / 3) for m in (BODY, body))
-    assert one.F_x == pytest.approx(two.F_x, rel=1e-14)
-
-
 def test_answers_come_in_the_shape_of_the_question():
     pulled = partial_slip(mdr.Cone(theta=0.02), BODY, MU_0, DEPTH, np.zeros((2, 3)))
     assert pulled.F_x.shape == pulled.stick_radius.shape == (2, 3)

@@ -195,22 +195,6 @@ def test_a_run_is_its_map_above_its_forces():
     assert not above.get_xlabel()
 
 
-def test_maps_of_several_runs_share_axes_colours_and_legend():
-    one, two = made_up_run(), made_up_run()
-    two.state, two.x = np.full_like(two.state, SLIP_BACK), 1e3 * two.x
-    figure = plots.plot_spring_maps([one, two], ["one", "two"])
-    assert [ax.get_title() for ax in figure.axes] == ["one", "two"]
-    assert figure.axes[0].get_ylim() == figure.axes[1].get_ylim()
-    assert "[mm]" in figure.axes[0].get_ylabel()
-    assert not figure.axes[1].get_ylabel()
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["free", "stick", "slip", "slip back"]
-    slip_back = np.unique(figure.axes[1].collections[0].to_rgba([SLIP_BACK]), axis=0)[0]
-    assert matplotlib.colors.to_hex(slip_back) == plots.MODES[SLIP_BACK][1].lower()
-    for runs, labels in (([one], ["a", "b"]), ([], [])):
-        with pytest.raises(ValueError, match="labels must name each"):
-            plots.plot_spring_maps(runs, labels)
-
-
 def test_a_run_without_a_record_is_refused():
     bare = SimpleNamespace(t=None)
     for draw in (plots.plot_spring_map, plots.plot_traces, plots.plot_forces, plots.plot_run):
@@ -231,13 +215,6 @@ def test_profile_shows_springs_down_to_the_indenter(d, unit):
     assert left.get_title() != right.get_title()
 
 
-def test_profile_takes_positions_or_a_record_of_springs():
-    x = np.array([1e-5, 9e-5, 2e-4])
-    for springs in (x, SimpleNamespace(x=x)):
-        _, right = plots.plot_profile(Ball(), 2e-5, springs=springs).axes
-        assert sum(len(d.get_segments()) for d in right.collections if hasattr(d, "get_segments")) == 6
-
-
 @pytest.mark.parametrize("back", [None, -0.1])
 def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
     v_0 = np.array([-0.02, -0.01, 0.01, 0.02])
@@ -246,11 +223,6 @@ def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
     line = max(ax.lines, key=lambda one: len(one.get_xdata()))
     at_rest = line.get_ydata()[np.asarray(line.get_xdata()) == 0]
     assert_array_equal(at_rest, [np.nan if back is None else back, 0.3])
-
-
-def test_one_place_has_edges_of_its_own_size():
-    assert_array_equal(mdr.plots.edges_of(np.array([3.0])), [0.0, 6.0])
-    assert_array_equal(mdr.plots.edges_of(np.array([0.0])), [-0.5, 0.5])
 
 
 def test_a_figure_is_saved_beside_its_script(tmp_path):

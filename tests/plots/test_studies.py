@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -167,13 +166,3 @@ def test_the_picture_that_suits(study, flat, shapes):
     assert [ax.get_title() for ax in three.plot().axes[:2]] == ["Paraboloid(R=0.005)", "Cone(theta=0.05)"]
     by_number = study.plot()
     assert sum(ax.get_title() != "" for ax in by_number.axes) == len(T)  # over the shortest axis
-
-
-def test_no_contour_follows_the_rounding_of_a_plateau():
-    """Above v_c friction is mu_0 but for rounding, and 0.5 would be a round level."""
-    study = mdr.sweep(CASE, {"alpha": [0.3, 0.6], "v_0/v_c": [0.2, 0.8, 1.2, 1.4]}, n_springs=64, steps_per_period=128)
-    top = float(study["cof"].max())
-    lines = [one for one in study.plot().axes[0].collections if isinstance(one, mpl.contour.ContourSet)]
-    levels = np.concatenate([one.levels for one in lines])
-    assert levels.size
-    assert levels.max() < top - 0.005 * (top - float(study["cof"].min()))

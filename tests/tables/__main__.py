@@ -1,6 +1,5 @@
 """Tables of random contacts, run by hand: `python tests/tables NAME [n]`, exit status 1 where one does not hold.
 
-    theorems [n] [first]  what a settled run must obey
     turning [n] [bodies] [along]  true error of slide() under a shake across the pull, or along it, beside the twin
     ways [n] [quick]      one motion written in six ways: no function may tell them apart
 
