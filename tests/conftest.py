@@ -3,6 +3,7 @@
 import math
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: processes share the cores, and threads would wait
@@ -29,7 +30,7 @@ LONGEST = (
 )
 assert all((Path(__file__).parent / name).exists() for name in LONGEST)
 
-#: indenter and the exponent n of its profile g ~ x**n, as the twin in reference.py counts shapes
+#: indenter and the exponent n of its profile g ~ x**n, as the twin in rigid_pull.py counts shapes
 SHAPES = {
     "flat": (mdr.FlatPunch(a=1e-3), math.inf),
     "cone": (mdr.Cone(theta=0.02), 1),
@@ -90,18 +91,9 @@ def unit_of_velocity(case):
 
 
 def by_groups(shape, nu, T, alpha, ratio, k, zeta=0.0, load=None):
-    """A body by its groups where a = 1 mm at u_z0 = 20 um: omega_0/omega, k_x/k_xc, damping ratio; load: dF_z/F_z0."""
-    depth, omega, radius = 2e-5, 300.0, 1e-3
-    indenter = {
-        "flat": mdr.FlatPunch(a=radius),
-        "cone": mdr.Cone(theta=math.atan(2 * depth / (math.pi * radius))),
-        "paraboloid": mdr.Paraboloid(R=radius**2 / depth),
-    }[shape]
-    material = mdr.KelvinVoigt(E=3e6, nu=nu, tau=T / omega) if T else mdr.Elastic(E=3e6, nu=nu)
-    k_x = k * 2 * material.G_star * radius
-    m = k_x / (ratio * omega) ** 2
-    motion = mdr.NormalOscillation(depth, alpha * depth, omega)
-    if load is not None:
-        F_z0 = float(indenter.force(depth, material.E_star))
-        motion = mdr.LoadOscillation(F_z0, load * F_z0, omega)
-    return mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x, m, 2 * zeta * math.sqrt(k_x * m)))
+    """A body by its groups: omega_0/omega, k_x/k_xc, damping ratio; load: dF_z/F_z0."""
+    case = contact(shape, 1 / alpha, T, k, ratio, 2 * zeta * k / ratio, nu=nu)
+    if load is None:
+        return case
+    F_z0 = float(case.indenter.force(case.oscillation.u_z0, case.material.E_star))
+    return replace(case, oscillation=mdr.LoadOscillation(F_z0, load * F_z0, case.omega))

@@ -138,13 +138,6 @@ def test_results_carry_what_was_promised(name):
     assert set(RECORDS[name].split()) <= {field.name for field in fields(attrgetter(name)(mdr))}
 
 
-def test_a_study_answers():
-    for name in ("axes", "units", "status", "why", "complete", "shape", "quantities"):
-        assert isinstance(inspect.getattr_static(mdr.Study, name, None), property) or name in {
-            field.name for field in fields(mdr.Study)
-        }
-
-
 def test_modes_have_their_names():
     assert [mode.name for mode in mdr.State] == ["FREE", "STICK", "SLIP", "SLIP_BACK"]
 

@@ -9,6 +9,7 @@ import pickle
 import warnings
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
 from functools import partial
+from inspect import signature
 from types import SimpleNamespace
 
 import numpy as np
@@ -174,7 +175,7 @@ def test_a_record_does_not_tell_an_int_from_a_float(three):
     assert pickle.dumps(one) == pickle.dumps(other)
 
 
-# --- every number that a function takes ---
+# --- every number that a function takes, by the name of its parameter ---
 
 SHAPES = [
     mdr.Profile(np.square),
@@ -182,124 +183,130 @@ SHAPES = [
 ]
 ARRAY = [(NAN, "must be finite"), ([1e-6, INF], "must be finite"), ("deep", "must"), (1j, "must"), (None, "must"),
          ([[1e-3], [1e-3, 2e-3]], "must be")]  # fmt: skip
+ONE = [(value, words) for value, _, words in NUMBER if not isinstance(value, Sly | np.ndarray | list)]
 ABOVE_ZERO = [(value, words) for value, _, words in POSITIVE if not isinstance(value, Sly | np.ndarray | list)]
-COUNT = [(True, "must be a whole number"), (40.5, "must be a whole number"), ("many", "must be a whole number")]
-STARTS = [("zero", "must be"), (None, "must be"), (["rest"], "must be")]
-FLAG = [("no", "must be True or False")]
-#: argument, a call with it, and what is refused
-ARGUMENTS = [
-    *[("d", shape.contact_radius, ARRAY) for shape in SHAPES],
-    *[("r", shape.profile_3d, ARRAY) for shape in SHAPES],
-    *[("x", shape.profile_1d, ARRAY) for shape in SHAPES],
-    ("d", lambda d: BALL.pressure(1e-4, d, 1e6), ARRAY),
-    ("r", lambda r: BALL.pressure(r, 1e-6, 1e6), ARRAY),
-    *[("E_star", lambda E_star, ask=ask: ask(1e-6, E_star), [*ARRAY, (0, "must be positive"), (-1, "must be positive")])
-      for ask in (BALL.force, BALL.stiffness, lambda d, E_star: BALL.pressure(1e-4, d, E_star))],
-    ("omega", RUBBER.dynamic_modulus, ARRAY),
-    ("omega", RUBBER.loss_tangent, ARRAY),
-    ("omega", SLED.receptance, ARRAY),
-    ("t", RUBBER.creep_compliance, [*ARRAY, (-1, "must not be negative")]),
-    ("t", RUBBER.relaxation_modulus, ARRAY),
-    ("t", TAPPING.u_z, ARRAY),
-    ("t", TAPPING.u_z_dot, ARRAY),
-    ("t", TAPPING.u_z_ddot, ARRAY),
-    *[(name, lambda value, name=name, ask=ask: ask(**{"t": T, "a": WAVE, name: value}), [*ARRAY, (NINE, words)])
-      for name, words in {"t": "must have the shape", "a": "must have the shape"}.items()
-      for ask in (lambda t, a: mdr.PeriodicMotion.from_acceleration(t, a, u_z0=2e-5),
-                  lambda t, a: mdr.displacement_of(t, a, high_pass=5.0))],
-    ("frequency", lambda f: mdr.PeriodicMotion.from_acceleration(T, WAVE, u_z0=2e-5, frequency=f), [
-        *((value, words) for value, words in ABOVE_ZERO if value is not None),
-        (2.0, "holds 2 periods"), (200.0, "below half of the sampling rate, 100 Hz")]),
-    ("u_z0", lambda u_z0: mdr.PeriodicMotion.from_acceleration(T, WAVE, u_z0=u_z0), [(NAN, "finite"), (-1.0, "never")]),
-    ("high_pass", lambda f: mdr.displacement_of(T, WAVE, high_pass=f), [
-        *ABOVE_ZERO, (0.5, "must lie between 1 Hz"), (100.0, "100 Hz, half of the sampling rate")]),
-    ("G", lambda G: mdr.KelvinVoigt.from_shear(G=G, eta=1, nu=0.5), ABOVE_ZERO),
-    ("eta", lambda eta: mdr.KelvinVoigt.from_shear(G=1, eta=eta, nu=0.5), [(-1, "not be negative"), (NAN, "must be")]),
-    ("tan_delta", lambda value: mdr.KelvinVoigt.from_loss_tangent(E=1, nu=0.5, tan_delta=value, omega=1), [
-        (-1, "must not be negative"), (NAN, "must be a finite number")]),
-    ("omega", lambda value: mdr.KelvinVoigt.from_loss_tangent(E=1, nu=0.5, tan_delta=1, omega=value), ABOVE_ZERO),
-    ("v_0", lambda v_0: mdr.slide(CASE, v_0), [(0, "static_cof(case)"), (-1e-3, "must be positive"), *(
-        (value, words) for value, _, words in NUMBER if not isinstance(value, Sly))]),
-    ("n_springs", lambda n: mdr.slide(CASE, 1e-3, n_springs=n), [*COUNT, (31, "at least 32"), (10**9, "memory holds")]),
-    ("steps_per_period", lambda n: mdr.slide(CASE, 1e-3, steps_per_period=n), [*COUNT, (8, "must be at least 32")]),
-    ("n_periods", lambda n: mdr.slide(CASE, 1e-3, n_periods=n), [*COUNT, (INF, "whole number"), (0, "at least 1")]),
-    ("record", lambda n: mdr.slide(CASE, 1e-3, n_periods=2, record=n), [*COUNT, (-1, "at least"), (3, "cannot be")]),
-    ("lump", lambda value: mdr.slide(CASE, 1e-3, lump=value), FLAG),
-    ("start", lambda start: mdr.slide(CASE, 1e-3, start=start), [*STARTS, ("Rest", '"full_slip" or "rest"')]),
-    *[("accuracy", ask, [*((one, "must lie between 1e-08 and 0.001") for one in (0.0, 1e-9, 2e-3, -1e-5)),
-                         (NAN, "must be a finite number"), ("high", "must be a real number")])
-      for ask in (lambda value: mdr.slide(CASE, 1e-3, accuracy=value),
-                  lambda value: mdr.cof_curve(CASE, 1e-3, accuracy=value),
-                  lambda value: mdr.measure_critical_velocity(CASE, accuracy=value))],
-    ("v_0", lambda v_0: mdr.cof_curve(CASE, v_0), [*ARRAY, ([], "list"), ([[1e-3]], "list"), ([-1e-3], "negative")]),
-    ("steps_per_period", lambda n: mdr.cof_curve(CASE, 1e-3, steps_per_period=n), [*COUNT, (8, "at least 32")]),
-    ("method", lambda method: mdr.cof_curve(CASE, 1e-3, method=method), [("exact", 'must be None or "march"')]),
-    ("start", lambda start: mdr.measure_critical_velocity(CASE, start=start), STARTS),
-    *[("direction", lambda way, ask=ask: ask(CASE, way), [
-        (one, "must be 1 (forward) or -1") for one in (0, 2, True, "forward")])
-      for ask in (mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity)],
-    ("within", lambda value: mdr.verdict(CASE, within=value), [
+COUNT = [(True, "must be a whole number"), (40.5, "must be a whole number"), ("many", "must be a whole number"),
+         (0, "must be at least")]  # fmt: skip
+FLAG = [("no", "must be True or False"), (1, "must be True or False")]
+SAMPLES = [*ARRAY, (NINE, "must have the shape")]
+VELOCITY, VELOCITIES = [*ONE, (-1e-3, "must be positive")], [*ARRAY, ([], "list"), ([[1e-3]], "list")]
+#: what each must refuse, whatever the function that takes it
+RULES = {
+    **dict.fromkeys(("d", "r", "x", "omega", "t"), ARRAY),
+    **dict.fromkeys(("mu_0", "chunk_seconds", "high_pass"), ABOVE_ZERO),
+    "limit_s": [(value, words) for value, words in ABOVE_ZERO if value is not None],
+    **dict.fromkeys(("n_springs", "steps_per_period", "n_periods", "n_t", "cells", "n_realisations"), COUNT),
+    **dict.fromkeys(("lump", "coupled"), FLAG),
+    "E_star": [*ARRAY, (0, "must be positive"), (-1, "must be positive")],
+    "v_0": VELOCITY,
+    "case": [(one, "must be a SlidingContact, got") for one in (BALL, None, "case.toml", mdr.SlidingContact)],
+    "indenter": [(one, "must be of kind") for one in (3, None)] + [(mdr.Cone, "write Cone(...)")],
+    "material": [(one, "must be of kind") for one in (3e6, None)] + [(mdr.Elastic, "write Elastic(...)")],
+    "spectrum": [([1.0, 2.0], "must be of kind Spectrum")],
+    "seed": [(-1, "must be at least 0"), (None, "must be a whole number"), ("x", "must be a whole number")],
+    "start": [(one, 'must be "full_slip" or "rest"') for one in ("zero", "Rest", None, ["rest"])],
+    "direction": [(one, "must be 1 (forward) or -1") for one in (0, 2, True, "forward")],
+    "accuracy": [*((one, "must lie between 1e-08 and 0.001") for one in (0.0, 1e-9, 2e-3, -1e-5)),
+                 (NAN, "must be a finite number"), ("high", "must be a real number")],
+}  # fmt: skip
+PRESSED, SAMPLED = {"indenter": BALL, "material": RUBBER}, {"t": T, "a": WAVE}
+#: functions, arguments that are right, and what some of these must refuse here besides or instead
+CALLS = [
+    *((lambda d, ask=shape.contact_radius: ask(d), {}, {}) for shape in SHAPES),
+    *((lambda r, ask=shape.profile_3d: ask(r), {}, {}) for shape in SHAPES),
+    *((lambda x, ask=shape.profile_1d: ask(x), {}, {}) for shape in SHAPES),
+    (lambda r, d, E_star: BALL.pressure(r, d, E_star), {"r": 1e-4, "d": 1e-6, "E_star": 1e6}, {}),
+    *((ask, {"d": 1e-6, "E_star": 1e6}, {}) for ask in (BALL.force, BALL.stiffness)),
+    *((ask, {"omega": 1.0}, {}) for ask in (RUBBER.dynamic_modulus, RUBBER.loss_tangent, SLED.receptance)),
+    *((ask, {"t": 1.0}, {}) for ask in (RUBBER.relaxation_modulus, TAPPING.u_z, TAPPING.u_z_dot, TAPPING.u_z_ddot)),
+    (RUBBER.creep_compliance, {"t": 1.0}, {"t": [*ARRAY, (-1, "must not be negative")]}),
+    (mdr.PeriodicMotion.from_acceleration, {**SAMPLED, "u_z0": 2e-5}, {
+        "t": SAMPLES, "a": SAMPLES, "u_z0": [(NAN, "finite"), (-1.0, "never")], "frequency": [
+            *((value, words) for value, words in ABOVE_ZERO if value is not None),
+            (2.0, "holds 2 periods"), (200.0, "below half of the sampling rate, 100 Hz")]}),
+    (mdr.displacement_of, {**SAMPLED, "high_pass": 5.0}, {"t": SAMPLES, "a": SAMPLES, "high_pass": [
+        *ABOVE_ZERO, (0.5, "must lie between 1 Hz"), (100.0, "100 Hz, half of the sampling rate")]}),
+    (mdr.KelvinVoigt.from_shear, {"G": 1.0, "eta": 1.0, "nu": 0.5}, {
+        "G": ABOVE_ZERO, "eta": [(-1, "not be negative"), (NAN, "must be")]}),
+    (mdr.KelvinVoigt.from_loss_tangent, {"E": 1.0, "nu": 0.5, "tan_delta": 1.0, "omega": 1.0}, {
+        "omega": ABOVE_ZERO, "tan_delta": [(-1, "must not be negative"), (NAN, "must be a finite number")]}),
+    (mdr.slide, {"case": CASE, "v_0": 1e-3}, {
+        "v_0": [*VELOCITY, (0, "static_cof(case)")], "n_springs": [*COUNT, (31, "at least 32"), (10**9, "memory")],
+        "n_periods": [*COUNT, (INF, "whole number")]}),
+    (partial(mdr.slide, CASE, 1e-3, n_periods=2), {}, {"record": [*COUNT[:-1], (-1, "at least"), (3, "cannot be")]}),
+    (mdr.cof_curve, {"case": CASE, "v_0": 1e-3}, {
+        "v_0": [*VELOCITIES, ([-1e-3], "negative")], "method": [("exact", 'must be None or "march"')]}),
+    *((ask, {"case": CASE}, {}) for ask in (
+        mdr.critical_velocity, mdr.full_slip_critical_velocity, mdr.measure_critical_velocity, mdr.static_cof,
+        mdr.resolved, mdr.write_case, mdr.laws.radial_rub, mdr.laws.coupling_loss)),
+    (mdr.verdict, {"case": CASE}, {"within": [
         *((one, "finite") for one in (NAN, INF)), *((one, "between 0 and 1, got") for one in (1, 0.0, -0.01)),
-        (5, "0.01 for 1 %"), *((one, "must be a real number") for one in ("1%", None, True))]),
-    ("n_springs", lambda n: mdr.SpringArray.of(CASE, n), [*COUNT, (15, "must be at least 16")]),
-    ("n_springs", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, n_springs=n), [*COUNT, (8, "must be at least 32")]),
-    ("steps_per_period", lambda n: mdr.sweep(CASE, {"v_0": [1e-3]}, steps_per_period=n), [*COUNT, (8, "at least 32")]),
-    ("chunk_seconds", lambda s: mdr.sweep(CASE, {"v_0": [1e-3]}, chunk_seconds=s), ABOVE_ZERO),
-    ("held", lambda held: mdr.sweep(CASE, {"v_0": [1e-3]}, held=held), [
-        ({"mu_0": 0.3}, "takes load, frequency, tan_delta, hold, got 'mu_0'")]),
-    ("load", lambda load: mdr.sweep(CASE, {"v_0": [1e-3]}, held={"load": load}), ABOVE_ZERO),
-    ("shard", lambda k_n: mdr.sweep(CASE, {"v_0": [1e-3]}, "nowhere", shard=k_n), [
-        *((one, "must be k/n with k from 1 to n, such as 3/16, got") for one in ("0/4", "5/4", "1", "1/2/3", "a/b", "",
-          "-1/4", "1.0/4", (0, 4), (1,), (1.0, 2), 3, (True, 2))), ("9" * 999 + "/" + "9" * 999, "must be k/n")]),
-    ("store", lambda store: mdr.sweep(CASE, {"v_0": [1e-3]}, store), [(3, "must be a folder, got 3")]),
-    ("executor", lambda one: mdr.sweep(CASE, {"v_0": [1e-3]}, executor=one), [
-        (4, "must be a concurrent.futures.Executor, got 4"),
-        (SimpleNamespace(get_executor=None), "; write client.get_executor()")]),
-    ("quantities", lambda names: mdr.sweep(CASE, {"mu_0": [0.1]}, quantities=names), [
-        ([], "must name at least one; there are v_c"), ("v_c", "must be a list of names, got"), (["T", "T"], "T twice"),
-        *(([one], "must be names or Quantity records, got") for one in (3, mdr.critical_velocity))]),
-    ("name", lambda name: mdr.Quantity(name, "-", len), [*((one, "must be of letters, digits and _") for one in (
-        "a b", "v_0/v_c", "status", "")), (3, "must be a string")]),
-    ("unit", lambda unit: mdr.Quantity("depth", unit, len), [(None, "must be a string")]),
-    ("of", lambda of: mdr.Quantity("depth", "m", of), [(3.0, "must be a function")]),
-    ("per_velocity", lambda flag: mdr.Quantity("depth", "m", len, per_velocity=flag), FLAG),
-    ("axes", lambda axes: mdr.sweep(CASE, axes), [
-        ({}, "must name at least one path"), (["v_0"], "must map paths to values"), ({3: [1.0]}, "paths in quotes")]),
-    ("v_0", lambda v_0: mdr.sweep(CASE, {"v_0": v_0}), [
-        *((one, "has no values") for one in ([], np.array([]))), ([0.1, -0.1], "must not be negative, got -0.1"),
-        *((one, "must be a list of values, got") for one in (0.1, "slow", {0.1, 0.2})),
-        *((one, "must be finite in m/s, got") for one in ([0.1, NAN], [INF])),
-        *((one, "must be real numbers") for one in ([0.1, "x"], [True, 0.5], [0.1j], [10**400], [BALL]))]),
-    ("mu_0", lambda mu_0: mdr.sweep(CASE, {"mu_0": mu_0}, quantities=["v_c"]), [
-        ([[0.1, 0.2]], "must be a plain list"), ([0.1, 0.2, 0.1], "has the value 0.1 twice")]),
-    ("indenter", lambda shapes: mdr.sweep(CASE, {"indenter": shapes}, quantities=["v_c"]), [
-        (BALL, "must be a list of values"), ([BALL] * 2, "has the value Paraboloid(R=0.005) twice"),
-        *(([one], "must be a list of records of kind Indenter, got") for one in (0.1, mdr.Cone, SLED))]),
-    ("mu_0", lambda mu_0: mdr.partial_slip(BALL, RUBBER, mu_0, 1e-6, 1e-7), ABOVE_ZERO),
-    ("u_x", lambda u_x: mdr.partial_slip(BALL, RUBBER, 0.5, 1e-6, u_x), [*ARRAY, (-1e-7, "must not be negative")]),
-    ("u_z", lambda u_z: mdr.indent(BALL, RUBBER, [0, 1], u_z), [([0, NAN], "finite"), ([0], "one value for each")]),
-    ("t", lambda t: mdr.indent(BALL, RUBBER, t, [0, 1e-6]), [
-        ([1, 0], "must not descend"), (["a", "b"], "must be"), ([0, NAN], "finite"),
-        *((one, "list of instants") for one in (1.0, []))]),
-    ("record", lambda flag: mdr.indent(BALL, RUBBER, [0, 1], [0, 1e-6], record=flag), [(1, "must be True or False")]),
-    ("n_springs", lambda n: mdr.indent(BALL, RUBBER, [0, 1], [0, 1e-6], n_springs=n), [*COUNT, (8, "at least 16")]),
-    ("F_z", lambda F_z: mdr.indent(BALL, RUBBER, [0, 1], F_z=F_z), [([0, -1], "must not be negative")]),
-    ("n_t", lambda n: full_slip(CASE, n_t=n), [*COUNT, (0, "must be")]),
-    *[("case", ask, [(one, "must be a SlidingContact, got") for one in (BALL, None, "case.toml", mdr.SlidingContact)])
-      for ask in (mdr.SpringArray.of, mdr.measure_critical_velocity, mdr.verdict, mdr.critical_velocity, mdr.static_cof,
-                  mdr.full_slip_critical_velocity, mdr.write_case, mdr.resolved, mdr.laws.radial_rub,
-                  mdr.laws.coupling_loss, lambda case: mdr.slide(case, 1e-3),
-                  lambda case: mdr.cof_curve(case, 1e-3), lambda case: mdr.sweep(case, {"v_0": [1e-3]}))],
+        (5, "0.01 for 1 %"), *((one, "must be a real number") for one in ("1%", None, True))]}),
+    (mdr.SpringArray.of, {"case": CASE}, {}),
+    (full_slip, {"case": CASE}, {}),
+    (mdr.tolerance, {"case": CASE, "v_0": 1e-4}, {"v_0": ONE, "by": [(10, "between 0 and 1, got 10.0 (0.1, or 10%)")]}),
+    (mdr.partial_slip, {**PRESSED, "mu_0": 0.5, "u_z0": 1e-6, "u_x": 1e-7}, {
+        "u_x": [*ARRAY, (-1e-7, "must not be negative")], "u_z0": ABOVE_ZERO}),
+    (mdr.indent, {**PRESSED, "t": [0, 1], "u_z": [0, 1e-6]}, {
+        "u_z": [([0, NAN], "finite"), ([0], "one value for each")], "record": FLAG, "t": [
+            ([1, 0], "must not descend"), (["a", "b"], "must be"), ([0, NAN], "finite"),
+            *((one, "list of instants") for one in (1.0, []))]}),
+    (partial(mdr.indent, BALL, RUBBER, [0, 1]), {}, {"F_z": [([0, -1], "must not be negative")]}),
+    (mdr.half_space.slide, {"case": RIGID, "v_0": 1e-4}, {"v_0": [*VELOCITY, (0, "must be positive")]}),
+    (mdr.half_space.curve, {"case": RIGID, "v_0": [1e-4]}, {"v_0": [([], "must be a list of velocities")]}),
+    (mdr.random_cof, {"case": RIGID, "spectrum": BAND, "v_0": 1e-4}, {
+        "v_0": [*VELOCITIES, (0.0, "must be positive")], "n_realisations": [*COUNT, (8.0, "whole number")]}),
+    (mdr.closed_forms.rigid_pull.average_friction, {"case": RIGID, "v_0": 1e-4}, {
+        "v_0": [([1e-3, 0.0], "must be positive"), (NAN, "must be finite")]}),
+    (mdr.Quantity, {"name": "depth", "unit": "m", "of": len}, {
+        "name": [*((one, "must be of letters, digits and _") for one in ("a b", "v_0/v_c", "status", "")),
+                 (3, "must be a string")],
+        "unit": [(None, "must be a string")], "of": [(3.0, "must be a function")], "per_velocity": FLAG}),
+    (mdr.sweep, {"case": CASE, "axes": {"v_0": [1e-3]}, "store": None}, {
+        "axes": [({}, "must name at least one path"), (["v_0"], "must map paths to values"), ({3: [1.0]}, "quotes")],
+        "held": [({"mu_0": 0.3}, "takes load, frequency, tan_delta, hold, got 'mu_0'")],
+        "store": [(3, "must be a folder, got 3")],
+        "executor": [(4, "must be a concurrent.futures.Executor, got 4"),
+                     (SimpleNamespace(get_executor=None), "; write client.get_executor()")],
+        "quantities": [([], "must name at least one; there are v_c"), ("v_c", "must be a list of names, got"),
+                       (["T", "T"], "T twice"),
+                       *(([one], "must be names or Quantity records, got") for one in (3, mdr.critical_velocity))]}),
+    (lambda load: mdr.sweep(CASE, {"v_0": [1e-3]}, held={"load": load}), {}, {"load": ABOVE_ZERO}),
+    (partial(mdr.sweep, CASE, {"v_0": [1e-3]}, "nowhere"), {}, {"shard": [
+        *((one, "must be k/n with k from 1 to n, such as 3/16, got") for one in (
+            "0/4", "5/4", "1", "1/2/3", "a/b", "", "-1/4", "1.0/4", (0, 4), (1,), (1.0, 2), 3, (True, 2))),
+        ("9" * 999 + "/" + "9" * 999, "must be k/n")]}),
+    *((lambda of=of, **axis: mdr.sweep(CASE, axis, quantities=of), {}, {name: wrong}) for of, name, wrong in (
+        (["cof"], "v_0", [
+            *((one, "has no values") for one in ([], np.array([]))), ([0.1, -0.1], "must not be negative, got -0.1"),
+            *((one, "must be a list of values, got") for one in (0.1, "slow", {0.1, 0.2})),
+            *((one, "must be finite in m/s, got") for one in ([0.1, NAN], [INF])),
+            *((one, "must be real numbers") for one in ([0.1, "x"], [True, 0.5], [0.1j], [10**400], [BALL]))]),
+        (["v_c"], "mu_0", [
+            ([[0.1, 0.2]], "must be a plain list"), ([0.1, 0.2, 0.1], "has the value 0.1 twice")]),
+        (["v_c"], "indenter", [
+            (BALL, "must be a list of values"), ([BALL] * 2, "has the value Paraboloid(R=0.005) twice"),
+            *(([one], "must be a list of records of kind Indenter, got") for one in (0.1, mdr.Cone, SLED))]))),
 ]  # fmt: skip
 
 
+def asked_of(call, own):
+    """The parameters of a function for which there is a rule."""
+    return {**{name: RULES[name] for name in signature(call).parameters if name in RULES}, **own}
+
+
+ARGUMENTS = [(name, call, known, wrong) for call, known, own in CALLS for name, wrong in asked_of(call, own).items()]
+
+
 @pytest.mark.parametrize(
-    ("name", "call", "hostile"), ARGUMENTS, ids=[f"{call.__qualname__} {name}" for name, call, _ in ARGUMENTS]
+    ("name", "call", "known", "hostile"),
+    ARGUMENTS,
+    ids=[f"{getattr(call, '__qualname__', 'partial')} {name}" for name, call, *_ in ARGUMENTS],
 )
-def test_an_argument_is_refused_by_name(name, call, hostile, monkeypatch):
+def test_an_argument_is_refused_by_name(name, call, known, hostile, monkeypatch):
     monkeypatch.setattr("mdr.friction.measured_velocity.slide", None)  # before any run
     for value, words in hostile:
-        message = str(refused(lambda value=value: call(value)))
+        message = str(refused(lambda value=value: call(**known | {name: value})))
         assert name in message, message
         assert words in message, message
 
@@ -310,12 +317,10 @@ def test_an_argument_is_refused_by_name(name, call, hostile, monkeypatch):
 SAYINGS = {
     # shapes
     "Indenter()": "Indenter is no shape",
-    "Paraboloid(r=5e-3)": "Paraboloid takes no r; did you mean R?",
     "FlatPunch()": "missing 1 required positional argument: 'a'",
     "Cone(45)": "45 degrees are 0.785",
     "TruncatedCone(0, 0.1)": "b must be positive, got 0.0 (radius of the face in m; a Cone has none)",
     "Profile(lambda r: r + 1)": "f(0) must be 0",
-    "Profile(lambda r: r * NAN)": "f(0) must be",
     "Profile(lambda r: r**2, kinks=(2.0,), r_max=1.0)": "within r_max",
     "Profile(lambda r: np.sin(1e3 * r) * 1e-3, r_max=5e-3).contact_radius(8e-4)": "annular",
     "Profile(lambda r: r**2, r_max=1e-3).contact_radius(1.0)": "d = 1 m is deeper than",
@@ -323,32 +328,23 @@ SAYINGS = {
     "SampledProfile(GRID[1:], GRID[1:])": "r must begin at 0, the tip from which the depth counts, got 1e-05 m",
     "SampledProfile(GRID - 1e-3, GRID)": "got -0.001 m: give one side of a mirrored profile",
     "SampledProfile(GRID[::-1], GRID)": "sort the points by r",
-    "SampledProfile(np.repeat(GRID, 2), np.repeat(GRID, 2))": "r must ascend, got 0 and then 0",
     "SampledProfile(GRID, GRID**2, kinks=[1.001e-3])": "got 0.001001 m: the nearest is 0.001 m",
     "SampledProfile(GRID, -(GRID**2))": "annular contact",
     "SampledProfile(GRID, 0 * GRID, smoothing=1e-7)": "f is 0 m at every r, a flat face: use FlatPunch(a=0.002)",
     "SampledProfile(GRID, 0 * GRID + 1e-3)": "f is 0.001 m at every r, a flat face",
     "FromForce(GRID, GRID**0.9, 2e6)": "falls at d = 1e-05 m",
     "FromForce(GRID, np.minimum(GRID, 1e-3 + (GRID - 1e-3) / 2), 2e6)": "F must rise more and more steeply",
-    "FromForce(GRID, GRID * 0, 2e6, smoothing=1.0)": "F must be positive for d > 0",
     "FromForce(GRID + 1e-9, GRID, 2e6)": "d and F must begin with 0, got 1e-09 m and 0 N",
-    "FromForce(GRID[:6], GRID[:6], 2e6)": "at least 7 numbers",
     "SampledProfile([0, 1e-3], [0, 1e-5])": "at least 6 numbers",
-    "SampledProfile([0, 1e-3], [0, 1e-6, 2e-6])": "f must have as many numbers as r",
-    "FromForce(NINE, -NINE, 1e6)": "F must ascend",
     "SlidingContact(ConcavePunch(1e-3, 0.2), RUBBER, 0.5, NormalOscillation(6e-6, 2e-6, 3))": "its middle presses only",
     # materials
     "KelvinVoigt(3e6, 50, 1e-3)": "rubber is 0.5",
     "KelvinVoigt(E=3e6, nu=0.5, tan_delta=0.2)": "use KelvinVoigt.from_loss_tangent",
-    "KelvinVoigt(E=3e6, nu=0.5, G=1e6)": "use KelvinVoigt.from_shear",
     "StandardLinearSolid(0, 0, 1e-3, 0.5)": "nothing carries a load",
     "Prony(0, [(1e6, 1)], 0.5, tau=1)": "tau must be 0 where E_inf = 0",
     "SlidingContact(BALL, Prony(0, [(1e6, 1)], 0.5), 0.5, TAPPING)": "E_inf = 0: a mean load relaxes",
     "NormalOscillation(1e-5, 0.0, 300.0)": "does not oscillate is a ConstantDepth",
-    "LoadOscillation(1.0, 0.0, 300.0)": "does not oscillate is a ConstantLoad",
-    "PeriodicMotion(300.0, 1e-5)": "or take ConstantDepth",
     "Prony.fit([1, 2], [1e6, NAN], [0, 0], nu=0.5)": "storage must be finite",
-    "Prony.fit([1, 2], [1e6, 1e6], [0, -1], nu=0.5)": "loss must not be negative, got -1.0 Pa",
     "Prony.fit([1], [1e6, 1e6], [0, 1], nu=0.5)": "lists of one length, got shapes (1,), (2,), (2,)",
     "Prony.power_law(modulus=1, exponent=1.2, omega=(1, 9), nu=0)": "exponent must lie",
     "Prony.power_law(modulus=1, exponent=0.2, omega=(9, 1), nu=0)": "omega must be a range",
@@ -368,38 +364,29 @@ SAYINGS = {
     "replace(CASE, shake=InPlaneOscillation(314.0, du_y=1e-6, at='pull'))": "guided there",
     "FrictionData([1.0, 2.0], [0.3])": "cof must be a list of as many numbers as v_0",
     "SpringPull(0)": "for a rigid pull use RigidPull()",
-    "SpringPull(kx=2e4)": "did you mean k_x?",
     # a contact
     "SlidingContact(Paraboloid, RUBBER, 0.5, TAPPING)": "write Paraboloid(...)",
     "SlidingContact(BALL, RUBBER, 0.5)": "missing 1 required positional argument: 'oscillation'",
     "SlidingContact(BALL, RUBBER, 0.5, ConstantDepth(2e-5))": "nothing oscillates",
-    "SlidingContact(BALL, RUBBER, 0.5, ConstantDepth(2e-5), shake=InPlaneOscillation(3.0))": "nothing oscillates",
     "SlidingContact(Sphere(1e-5), RUBBER, 0.5, NormalOscillation(1e-3, 1e-6, 300))": "press less",
     "SlidingContact(BALL, RUBBER, 0.5, TAPPING, shake=SHAKE)": "whole numbers up to 16",
     "resolved(SlidingContact(Sphere(1e-6), RUBBER, 1, LoadOscillation(9, 1, 1)))": "carries",
     # questions
     "slide(CASE)": "missing 1 required positional argument: 'v_0'",
-    "slide(CASE, -1e-3)": "the other way is the same where nothing shakes in the plane",
     "slide(CASE, 1e-3, n_periods=200_000, record=200_000)": "more than memory holds",
     "slide(CASE, 1e-15)": "rounding hides the motion",
     "slide(replace(SHAKEN, shake=InPlaneOscillation(314.0, 1e7)), 1.0)": "the shake is more than",
     "no_load_velocity(ON_RESONANCE)": "undamped natural frequency",
     "slide(CASE, 1e25)": "full slip but for rounding; lower it",
     "cof_curve(CASE, [5e-4], n_springs=10**8)": "more than memory holds",
-    "partial_slip(BALL, RUBBER, 0.5, -1e-6, 1e-7)": "u_z0 must be positive",
-    "partial_slip(3, RUBBER, 0.5, 1e-6, 1e-7)": "indenter must be of kind",
-    "partial_slip(BALL, Elastic, 0.5, 1e-6, 1e-7)": "write Elastic(...)",
     "partial_slip(BALL, Prony(0, [(1e6, 1)], 0.5), 0.5, 1e-6, 1e-7)": "flows",
     "surface_fields(3)": "source must be of kind",
     "surface_fields(indent(BALL, RUBBER, [0, 1], [0, 1e-6]))": "record=True",
     "surface_fields(slide(CASE, 1e-3, n_periods=1))": "slide(..., record=1)",
-    "indent(Cone, RUBBER, [0, 1], [0, 1e-6])": "indenter must be of kind",
-    "indent(BALL, 3e6, [0, 1], [0, 1e-6])": "material must be of kind",
     "indent(Profile(np.square, r_max=1e-3), RUBBER, [0, 1], [0, 1e-5])": "deeper",
     "indent(BALL, RUBBER, [0, 1])": "give either u_z",
     "indent(BALL, RUBBER, [0, 1], [0, 1], F_z=[0, 1])": "give either u_z",
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["coff"])': "did you mean cof?",
-    'sweep(CASE, {"v_0": [1e-3]}, quantities=["zzz"])': "there are v_c, full_slip_v_c",
     'sweep(CASE, {"v_0": [1e-3]}, shard="1/2")': "a shard needs a store",
     'sweep(CASE, {"mu_0": [0.1]})': 'cof needs a velocity: give an axis "v_0" [m/s] or "v_0/v_c"',
     'sweep(CASE, {"T": [0.1]}, quantities=["T"])': "T is an axis of the study already",
@@ -407,31 +394,17 @@ SAYINGS = {
     'sweep(CASE, {"T": [0.1]}, quantities=[Quantity("own", "-", len, per_velocity=True)])': "own needs a velocity",
     'sweep(CASE, dict.fromkeys(("alpha", "T", "v_0"), np.linspace(0.1, 1, 1001)))': "more than memory holds",
     'sweep(CASE, {"v0": [1.0]})': "v0 is no path of this case; did you mean v_0?",
-    'sweep(CASE, {"tau": [1.0]})': "did you mean material.tau?",
-    'sweep(CASE, {"oscilation.u_z0": [1.0]})': "did you mean oscillation.u_z0?",
     'sweep(CASE, {"pull.k": [1.0]})': "SpringPull has none; did you mean pull.k_x?",
     'sweep(CASE, {"xyz": [1.0]})': "there are v_0, v_0/v_c, mu_0, indenter, material",
     'sweep(CASE, {"v_0": [1.0], "v_0/v_c": [1.0]})': "v_0 and v_0/v_c set the same",
-    'sweep(CASE, {"alpha": [0.1], "oscillation.du_z": [1e-6]})': "alpha and oscillation.du_z set the same",
-    'sweep(CASE, {"T": [0.1], "material.tau": [1e-3]})': "T and material.tau set the same",
     'sweep(CASE, {"k_x/k_xc": [1], "pull.k_x": [1e4]})': "k_x/k_xc and pull.k_x set the same",
-    'sweep(CASE, {"omega_0/omega": [1], "pull.m": [1]})': "omega_0/omega and pull.m set the same",
-    'sweep(CASE, {"load": [1.0], "oscillation.u_z0": [1e-6]})': "load and oscillation.u_z0 set the same",
-    'sweep(CASE, {"tan_delta": [0.1], "T": [0.1]})': "tan_delta and T set the same",
-    'sweep(CASE, {"frequency": [10.0], "oscillation.omega": [60.0]})': "frequency and oscillation.omega set the same",
     'sweep(CASE, {"tan_delta": [0.1], "material": [Elastic(1e6, 0.3)]})': "which Elastic has not",
     'sweep(CASE, {"chi": [0.5], "v_0": [1]})': "chi sets shake.du_x, which a case without shake has not",
     'sweep(CASE, {"pull": [RigidPull()], "pull.m": [0.1]})': "pull.m is no path of this case; RigidPull has none",
-    'sweep(CASE, {"pull": [RigidPull()], "k_x/k_xc": [1.0]})': "k_x/k_xc sets pull.k_x, which RigidPull has not; give",
-    'sweep(CASE, {"material": [Elastic(E=1e6, nu=0.3)], "T": [1.0]})': "T sets material.tau, which Elastic has not",
-    'sweep(CASE, {"oscillation": [LoadOscillation(1, 0.5, 3)], "alpha": [0.1]})': "alpha sets oscillation.du_z, which",
     'sweep(CASE, {"indenter": [Cone(theta=0.1)], "indenter.R": [1e-3]})': "Cone has none; did you mean indenter",
     'fit(CASE, SOME, "mu_0")': "parameters must be a list of names",
     'fit(RIGID, SOME, ["omega_0/omega"])': "cannot be varied: omega_0/omega: RigidPull has no k_x",
-    'fit(replace(RIGID, material=Elastic(3e6, 0.4)), SOME, ["T"])': "T cannot be varied: T: Elastic has no tau",
     "fit(CASE, SOME, [])": "must name at least one",
-    "fit(CASE, SOME, [3])": "parameters must be names",
-    'fit(CASE, SOME, ["theta"])': "theta is no parameter of this case",
     'fit(CASE, SOME, ["taw"])': "taw is no parameter of this case; did you mean tau?",
     'fit(CASE, SOME, ["tau", "material.tau"])': "name one twice",
     'fit(CASE, SOME, ["mu_0", "tau", "R"])': "3 parameters need more than 3 measurements",
@@ -441,54 +414,26 @@ SAYINGS = {
     'fit(CASE, SOME, ["tau"], bounds={"tau": (1e-1, 1e-5)})': "low < high, got 0.1 and 1e-05",
     'fit(CASE, SOME, ["tau"], bounds={"tau": (-1.0, 1.0)})': "-1 is no value of it: tau must not be negative",
     'fit(CASE, SOME, ["tau"], bounds={"tau": (0.0, NAN)})': "bounds of tau must be a finite number",
-    'fit(CASE, SOME, ["tau"], bounds={"tau": 3})': "bounds of tau must be a pair (low, high), got 3",
     'fit(CASE, SOME, ["tau"], bounds={"k_x": (1, 2)})': "bounds: k_x is not fitted; the parameters are tau",
-    'fit(CASE, SOME, ["tau"], bounds=[(1, 2)])': "bounds must be a dict",
     'find(CASE, "du_z")': "give one wish: cof at a velocity v_0, or v_c",
-    'find(CASE, "du_z", cof=0.2)': "give one wish",
-    'find(CASE, "du_z", v_0=1e-4, cof=0.2, v_c=1e-3)': "give one wish",
     'find(CASE, "du_z", v_0=1e-4, cof=0.5)': "cof must be below mu_0 = 0.5, got 0.5: from v_c on friction is mu_0",
-    'find(CASE, "du_z", v_0=1e-4, cof=NAN)': "cof must be a finite number",
-    'find(CASE, "du_z", v_c=-1)': "v_c must be positive",
     'find(CASE, "du_y", v_c=1e-3)': "du_y is no parameter of this case",
-    'find(CASE, "du_z", v_c=1e-3, within=3)': "within must be a pair (low, high), got 3",
     'find(CASE, "du_z", v_c=1e-3, within=(2, 1))': "within must be (low, high) with low < high, got 2 and 1",
     'find(replace(CASE, pull=replace(SLED, c_x=0)), "c_x", v_c=1e-3)': "pull.c_x is zero in this case: give the range",
-    "tolerance(CASE, NAN)": "v_0 must be a finite number",
-    "tolerance(CASE, 1e-4, 10)": "by must lie between 0 and 1, got 10.0 (0.1, or 10%)",
     'tolerance(CASE, 1e-4, fields=["taw"])': "did you mean tau?",
-    'tolerance(CASE, 1e-4, fields="tau")': "fields must be a list of paths, got 'tau'",
-    "closed_forms.rigid_pull.average_friction('case', 1e-3)": "case must be a SlidingContact",
     "closed_forms.rigid_pull.average_friction(CASE, 1e-3)": "rigid pull",
-    "closed_forms.rigid_pull.average_friction(RIGID, [1e-3, 0.0])": "v_0 must be positive",
-    "closed_forms.rigid_pull.average_friction(RIGID, NAN)": "v_0 must be finite",
     "closed_forms.rigid_pull.average_friction(replace(RIGID, material=SOLID), 1e-4)": "harmonic depth",
-    "closed_forms.rigid_pull.average_friction(replace(RIGID, oscillation=LOAD), 1e-4)": "harmonic depth",
     # spectra, waveforms and their laws
     "Spectrum((1.0, 2.0), (1.0,))": "of one length, two or more, got 2 and 1",
-    "Spectrum((1.0,), (1.0,))": "two or more",
     "Spectrum((2.0, 2.0), (1.0, 1.0))": "f must rise",
     "Spectrum((1.0, 2.0), (0.0, 0.0))": "nothing vibrates",
-    "Spectrum.band(0.0, 1.0, 2.0)": "rms must be positive",
     "Spectrum.band(1e-6, 2.0, 1.0)": "f_high must be above f_low",
-    "Spectrum.band(1e-6, -1.0, 1.0)": "f_low must not be negative",
-    "Spectrum.band(1e-6, 1.0, INF)": "f_high must be a finite number",
     "BAND.moment(7)": "at most 6",
-    "BAND.moment(0.5)": "whole number",
     "BAND.realisation(128, 7e-3)": "too long for frequencies up to 80 Hz",
-    "BAND.realisation(128, 1e-3, seed=-1)": "seed must be at least 0",
-    'BAND.realisation(128, 1e-3, seed="x")': "seed must be a whole number",
-    "BAND.realisation(1, 1e-3)": "n_t must be at least 2",
     "waveforms.pulse(2e-5, 5e-6, 300.0, n_harmonics=4, width=1.0)": "width must lie between 0 and 1",
-    "waveforms.pulse(2e-5, 0.0, 300.0, n_harmonics=4, width=0.5)": "du_z must be positive",
-    "waveforms.pulse(2e-5, 5e-6, 300.0, n_harmonics=0, width=0.5)": "n_harmonics must be at least 1",
     "waveforms.pulse(-1.0, 5e-6, 300.0, n_harmonics=4, width=0.5)": "never touches",
-    "waveforms.pulse(2e-5, 5e-6, 0.0, n_harmonics=4, width=0.5)": "omega must be positive",
     "laws.waveform_loss(np.sin, -1.0)": "beta must not be negative",
-    "laws.waveform_loss(np.sin, NAN)": "beta must be finite",
     "laws.waveform_loss(np.ones(5), 1.0)": "constant",
-    "laws.waveform_loss(lambda x: 0 * x, 1.0)": "constant",
-    "laws.waveform_loss(ConstantDepth(1e-6), 1.0)": "constant",
     "laws.waveform_loss([1.0], 1.0)": "at least 2 samples",
     "laws.waveform_loss([1.0, NAN], 1.0)": "w must be finite",
     "laws.waveform_loss(lambda x: np.sin(1e9 * x**2), 1.0)": "too rough",
@@ -496,28 +441,15 @@ SAYINGS = {
     'laws.waveform_loss("saw", 1.0)': "w must be",
     "laws.waveform_critical(lambda x: np.where(x == 0.5, INF, x))": "w",
     "laws.steepest_waveform(0)": "at least 1",
-    "laws.best_waveform(2, -1.0)": "beta must not be negative",
-    "random_cof('case.toml', BAND, 1e-4)": "must be a SlidingContact",
     "random_cof(CASE, BAND, 1e-4)": "a rigid pull, got pull = SpringPull",
     "random_cof(replace(RIGID, shake=InPlaneOscillation(314.0, 1e-6)), BAND, 1e-4)": "shake = InPlaneOscillation",
-    "random_cof(replace(RIGID, oscillation=LOAD), BAND, 1e-4)": "under a load",
     "random_cof(replace(RIGID, oscillation=NormalOscillation(-1e-3, 2e-3, 600.0)), BAND, 1e-4)": "never touches",
-    "random_cof(RIGID, [1.0, 2.0], 1e-4)": "spectrum must be of kind Spectrum",
-    "random_cof(RIGID, BAND, 0.0)": "v_0 must be positive",
-    "random_cof(RIGID, BAND, [1e-4, NAN])": "v_0 must be finite",
-    "random_cof(RIGID, BAND, [])": "a list of velocities",
-    "random_cof(RIGID, BAND, [[1e-4]])": "a list of velocities",
     "random_cof(RIGID, BAND, 1e-11)": "raise v_0",
     "random_cof(replace(RIGID, material=Prony(3e6, [(3e6, 1e28)], 0.5)), BAND, 1e-4)": "lower it to",
     "random_cof(RIGID, BAND, 1e-4, n_realisations=7)": "n_realisations must be at least 8",
-    "random_cof(RIGID, BAND, 1e-4, n_realisations=8.0)": "n_realisations must be a whole number",
-    "random_cof(RIGID, BAND, 1e-4, seed=-1)": "seed must be at least 0",
-    "random_cof(RIGID, BAND, 1e-4, seed=None)": "seed must be a whole number",
-    "random_cof(RIGID, BAND, 1e-4, n_springs=16)": "n_springs must be at least 32",
     # laws
     "laws.late_return(-1.0, 0.0)": "never touches",
     "laws.touch_depth(1.0, 0.0)": "phase",
-    "laws.amplitude_limit(-1.0)": "T must not be negative",
     "laws.edge_band(1.0)": "v_hat",
     "laws.rise_of_lost_punch(2.0, 1.0)": "depth",
     "laws.onset(CASE)": "flat punch",
@@ -527,96 +459,54 @@ SAYINGS = {
     "laws.lock_in(1)": "at least 2",
     "laws.first_order(replace(CASE, oscillation=LOAD))": "harmonic",
     "laws.coupling_loss(SHAKEN)": "shake in the plane",
-    "laws.coupled_critical_velocity(SHAKEN)": "shake in the plane",
     "laws.first_order(replace(SHAKEN, pull=SLED))": "shake in the plane",
     "laws.lost_under_shake(SHAKEN, 1e-4)": "this law is that of an",
-    "laws.lost_under_shake(replace(SHAKEN, shake=InPlaneOscillation(314.0, 1e-4)), 1e-4)": "this law is that of an",
     "laws.excess_across(replace(CROSSED, material=RUBBER), 1e-4)": "only elastic",
     "closed_forms.rigid_pull.small_velocity(replace(LOST, material=RUBBER, pull=RigidPull()))": "lost entirely",
     "closed_forms.rigid_pull.near_critical(TOUCHING)": "open at the instant of fastest approach",
     "laws.random_friction(CASE, BAND, 1e-3)": "use random_cof",
-    "laws.random_friction(replace(RIGID, shake=InPlaneOscillation(314.0, 1e-6)), BAND, 1e-3)": "use random_cof",
-    "laws.random_friction(replace(RIGID, material=SOLID), BAND, 1e-3)": "use random_cof",
-    "laws.random_friction(replace(RIGID, oscillation=NormalOscillation(-1e-6, 2e-6, 3)), BAND, 1e-3)": "use random_cof",
     # the half-space
-    "half_space.slide(RIGID, -1e-4)": "v_0 must be positive",
-    "half_space.slide(RIGID, 0)": "v_0 must be positive",
-    "half_space.slide(RIGID, NAN)": "v_0 must be a finite number",
-    'half_space.slide(RIGID, "1e-4")': "v_0 must be a real number",
-    'half_space.slide("case", 1e-4)': "must be a SlidingContact",
-    "half_space.slide(RIGID, 1e-4, coupled=1)": "must be True or False",
-    "half_space.slide(RIGID, 1e-4, cells=7)": "cells must be at least 8",
-    "half_space.slide(RIGID, 1e-4, steps_per_period=7)": "steps_per_period must be at least 8",
-    "half_space.slide(RIGID, 1e-4, n_periods=0)": "n_periods must be at least 1",
-    'half_space.slide(RIGID, 1e-4, start="full")': 'start must be "full_slip" or "rest"',
-    "half_space.slide(RIGID, 1e-4, limit_s=0)": "limit_s must be positive",
-    "half_space.curve(RIGID, [])": "must be a list of velocities",
     # studies
     'STUDY["coff"]': "the study has no quantity 'coff'; did you mean cof?",
-    'STUDY["zzz"]': "there are cof, v_c",
-    "STUDY[0]": "there are cof, v_c",
     'STUDY.select({"v_0": 0.5})': "'v_0' is no axis of the study; there are v_0/v_c, ind",
     'STUDY.select({"v_0/v_c": 0.49})': "v_0/v_c has no value 0.49; the nearest is 0.5",
     'STUDY.select({"v_0/v_c": None})': "v_0/v_c has numbers for values, got None",
     'STUDY.select({"indenter": Cone(0.06)})': "no value Cone",
     'STUDY.select("v_0/v_c")': "values must map paths to values",
     'sweep(SHAKEN, {"chi": [0.5], "shake.du_x": [1e-6]})': "chi and shake.du_x set the same",
-    'sweep(CROSSED, {"eta": [0.5], "shake.du_y": [1e-6]})': "eta and shake.du_y set the same",
     'TABLE.plot_map("v_c")': "the study has 3",
     'TABLE.select({"T": 0.1}).plot_map("v_c", x="T")': "no axis of the study",
-    'TABLE.select({"T": 0.1}).plot_map("cof")': "no quantity",
     'STUDY.plot_map("cof", x="v_0/v_c")': "two axes of numbers",
     'STUDY.select({"v_0/v_c": 0.5}).plot()': "no axis of numbers",
     'TABLE.plot_multiples("v_c", over="T", columns=0)': "columns must be at least 1",
     'TABLE.select({"T": 0.1}).plot_multiples("v_c", over="alpha", levels=[0.3])': "levels is for maps",
     # records of motion
     "MOVED(t=[0, 2, 1])": "t must rise, got 1 s after 2 s",
-    "MOVED(t=[0, 1, 1])": "t must rise",
-    "MOVED(t=[0, NAN, 2])": "finite",
     "MOVED(t=[0], u_x=[0], u_z=[1e-6])": "two instants",
-    "MOVED(t=np.zeros((3, 2)))": "two instants",
     "MOVED(u_x=[0, 1e-6])": "u_x must have the shape",
-    "MOVED(u_x=[0, NAN, 0])": "finite",
-    'MOVED(u_x=["a", "b", "c"])': "real numbers",
     "MOVED(u_y=[0, 0, 0, 0])": "u_y must have the shape",
-    "MOVED(u_z=[0, INF, 0])": "finite",
     "MOVED(u_z=-1e-6)": "never touches",
     "MOVED(F_z=1.0)": "not both",
-    "MOVED(u_z=None)": "not both",
     "MOVED(u_z=None, F_z=[0.01, -0.01, 0.01])": "F_z must not be negative",
-    "MOVED(u_z=None, F_z=0.0)": "never touches",
     "MOVED(indenter=Profile(np.square, r_max=1e-4), u_z=1e-6)": "deeper",
     "MOVED(material=Prony(0.0, [(1e6, 1e-3)], 0.5))": "E_inf = 0",
-    "MOVED(material=Prony(0.0, [(1e6, 1e-3)], 0.5), u_z=None, F_z=1.0)": "E_inf = 0",
-    "MOVED(n_springs=16)": "n_springs",
-    "MOVED(mu_0=-0.1)": "mu_0",
-    "MOVED(indenter=None)": "indenter",
-    "MOVED(material=3e6)": "material",
     # rigs
     "RIG(load=None, load_amplitude=0.1)": "give the load once",
-    "RIG(load_grams=3.0, load_amplitude=0.1)": "give the load once",
-    "RIG(load=-1.0, load_amplitude=0.1)": "load must be positive",
-    "RIG(frequency=0.0, load_amplitude=0.1)": "frequency must be positive",
     "RIG(load_amplitude=0.1, acceleration=3.0)": "give one of them",
     "RIG()": "nothing vibrates",
     "RIG(load_amplitude=0.1, k_x=2e4)": "m is missing",
     "RIG(load_amplitude=0.1, c_x=2.0)": "give k_x",
     "RIG(load_amplitude=0.1, k_x=2e4, m=0.2)": "Say load_rides=True",
-    "RIG(load_amplitude=0.1, m=0.2)": "Say load_rides=True",
     "RIG(load_amplitude=0.1, load_rides=True)": "give the mass m of the sled",
     "RIG(load_amplitude=0.1, m=0.1, load_rides=False)": "m has no effect under a rigid pull",
     "RIG(depth_amplitude=1e-6, k_x=2e4, m=0.1, load_rides=True)": "is about an oscillating load",
-    'RIG(load_amplitude=0.1, k_x=2e4, m=0.1, load_rides="no")': "True or False",
     "RIG(shake=InPlaneOscillation(628.0, 1e-6))": "nothing vibrates at the frequency of 50 Hz",
     "RIG(load_amplitude=2.0)": "must be less than F_z0",
-    "RIG(depth_amplitude=NAN)": "depth_amplitude must be",
     "RIG(load=1e6, depth_amplitude=1e-6)": "carries on this material",
-    "RIG(load_amplitude=0.1, tan_delta=-0.1)": "tan_delta must not be negative",
     "RIG(material=RUBBER, load_amplitude=0.1, tan_delta=0.1)": "tan_delta turns an Elastic",
     'RIG(depth_amplitude=1e-6, hold="force")': 'hold must be "depth" or "load"',
     'RIG(load_amplitude=0.1, hold="load")': "hold is about a driven depth",
     # keywords
-    "slide(None, v=1)": "slide takes no v; did you mean v_0?",
     "rig(None, None, 0.3, frequency=5, amplitude=1e-6)": "did you mean load_amplitude or depth_amplitude?",
     "cof_curve(None, 1, springs=40)": "cof_curve takes no springs; did you mean n_springs?",
     'sweep(None, {}, quantity=["cof"])': "sweep takes no quantity; did you mean quantities?",
@@ -624,11 +514,8 @@ SAYINGS = {
     "Sphere(5e-3).profile_1d(5e-3)": "Sphere is touched within its equator only, x < 0.005 m",
     "Sphere(5e-3).profile_3d([0, 5.5e-3])": "Sphere ends at its equator r = 0.005 m, got 0.0055 m",
     "Sphere(5e-3).force(1.0, 1)": "d = 1 m is deeper than Sphere can be pressed",
-    "Ellipsoid(5e-3, 100).profile_area(0.02)": "Ellipsoid is touched within its equator only, x < 0.01 m",
-    "Ellipsoid(5e-3, 100).contact_radius(1.0)": "Ellipsoid can be pressed",
     "ConstantPressure(1e-3, 1e-5).stiffness(2e-5, 1)": "d_0 = 1e-05 m its whole face touches",
     "ConstantPressure(1e-3, 1e-5).profile_3d(2e-3)": "ConstantPressure ends at r = 0.001 m, got 0.002 m",
-    "ConcavePunch(1e-3, 1).profile_1d(2e-3)": "ConcavePunch ends at r = 0.001 m, got 0.002 m",
     # files
     'read_case("nofile.toml")': "nofile.toml: cannot be read: No such file",
     'Prony.read("arms.txt")': "arms.txt",

@@ -74,22 +74,6 @@ def test_noise_costs_what_least_squares_must_pay(name, seed):
     assert_allclose(np.std(a - found.u_z_ddot(t)), s, rtol=0.05)  # 4/sqrt(2 N): what was left out is the noise
 
 
-@pytest.mark.parametrize("seed", range(40))
-def test_the_period_of_random_series_is_found(seed):
-    """Of some harmonics of which any may be loudest, with their common divisor as the fundamental."""
-    rng = np.random.default_rng(seed)
-    periods, N, dt = rng.uniform(4, 60), 3000, 10 ** rng.uniform(-6, -3)
-    n = np.unique(rng.integers(1, 12, 5))
-    n //= np.gcd.reduce(n)
-    f, t = periods / (N * dt), instants(N, dt, seed if seed % 2 else None)
-    A = rng.uniform(0.2, 2, n.size) * np.exp(1j * rng.uniform(0, 6, n.size))
-    a = (A[:, None] * np.exp(2j * np.pi * f * n[:, None] * (t - 3.0))).real.sum(axis=0)
-    a += 10 ** rng.uniform(-4, -1) * rng.normal(size=N)
-    found = mdr.PeriodicMotion.from_acceleration(t, a, u_z0=1e9)
-    assert abs(found.omega / (2 * np.pi) - f) < 0.02 / (N * dt)
-    assert len(found.cos) == n[-1]
-
-
 @pytest.mark.parametrize("seed", range(20))
 def test_noise_is_no_motion(seed):
     with pytest.raises(ValueError, match="nothing periodic stands out"):

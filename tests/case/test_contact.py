@@ -33,10 +33,6 @@ def test_tapping_is_legal():
     assert math.isinf(contact("cone", depth_ratio=0.0).alpha)
 
 
-def test_the_pull_is_rigid_unless_said_otherwise():
-    assert mdr.SlidingContact(CASE.indenter, CASE.material, 0.4, CASE.oscillation).pull == mdr.RigidPull()
-
-
 class Rope(mdr.case.pull.Pull):
     """A pull of one's own: a spring and a damper without mass."""
 

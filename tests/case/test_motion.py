@@ -30,13 +30,6 @@ def test_a_series_is_the_sum_of_its_terms():
     assert_allclose(motion.u_z_dot(t), slope, rtol=0, atol=1e-6 * 1e-3)  # (3 omega dt)²/6 of 3e-6 omega
 
 
-def test_one_term_is_eq_3():
-    one = mdr.PeriodicMotion(300.0, 20e-6, cos=(2e-6,))
-    t = np.linspace(0, 0.1, 9)
-    assert_allclose(one.u_z(t), MOTION.u_z(t), rtol=1e-15)
-    assert one.cycle == MOTION.cycle
-
-
 def test_a_series_goes_through_its_samples():
     phase = 2 * np.pi * np.arange(101) / 101
     u_z = 5e-6 + 1e-6 * np.sign(np.sin(phase + 0.1))  # square-like

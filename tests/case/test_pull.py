@@ -33,11 +33,6 @@ def test_receptance_keeps_the_shape():
         assert_allclose(pull.receptance(omega)[1, 0], pull.receptance(3.0), rtol=1e-15)
 
 
-def test_a_rigid_pull_does_not_yield():
-    assert mdr.RigidPull().receptance(300.0) == 0
-    assert not np.any(mdr.RigidPull().receptance([0.0, 300.0]))
-
-
 def test_resonance_without_damper_is_infinite():
     pull = mdr.SpringPull(k_x=4.0, m=1.0)  # omega_0 = 2, exact in binary
     assert math.isinf(abs(pull.receptance(2.0)))

@@ -44,12 +44,6 @@ def test_a_history_has_the_variance_and_the_spectrum():
     assert_allclose(np.mean(found**4) / np.mean(found**2) ** 2, 3, atol=3 * np.sqrt(24 * share / n))  # Gaussian
 
 
-def test_a_narrow_line_between_frequencies_keeps_its_power():
-    line = mdr.Spectrum.band(1e-6, 10.01, 10.02)
-    found = [line.realisation(64, 1 / 64, k=k) for k in range(400)]
-    assert_allclose(np.mean(np.square(found)), 1e-12, rtol=0.2)  # a frequency of exponential power in each
-
-
 def test_what_is_slower_than_a_history_stands_still_in_it():
     slow = mdr.Spectrum.band(1e-6, 0.0, 0.01)
     found = np.array([slow.realisation(16, 1.0, k=k) for k in range(400)])

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import reference
 from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 from random_full_slip import BODIES as BODIES_DRAWN
 from random_full_slip import difference, drawn
+from twins import full_slip
+from twins import rigid_pull as reference
 
 import mdr
 
@@ -46,10 +47,10 @@ def test_a_rigid_pull_that_keeps_contact_has_eq_1(shape, depth_ratio, T):
 @pytest.mark.parametrize("depth_ratio", [0.6, 0.0, -0.5, -0.9])
 @pytest.mark.parametrize("shape", ["flat", "paraboloid"])
 def test_a_rigid_pull_that_touches_late_against_the_twin(shape, depth_ratio, T):
-    n = SHAPES[shape][1]
-    assert_allclose(
-        v_hat_c(contact(shape, depth_ratio, T)), reference.full_slip_critical_velocity(n, depth_ratio, T), rtol=BUDGET
-    )
+    """Of one cosine: the greatest rate within the contact, which begins at the touch."""
+    (on,), _ = reference.contact_times([depth_ratio], T)
+    expected = 1.0 if on <= 1.5 * np.pi else max(-math.sin(on), 0.0)
+    assert_allclose(v_hat_c(contact(shape, depth_ratio, T)), expected, rtol=BUDGET)
 
 
 @pytest.mark.parametrize("ratio", [0.6, 0.8, 1.2, 1.5, 2.5])
@@ -66,18 +67,17 @@ def test_small_deviations_from_eq_15_go_with_the_square_of_the_amplitude(shape, 
     ("shape", "depth_ratio", "T"),
     [
         *((shape, depth_ratio, 0.0) for shape in CURVED for depth_ratio in (10.0, 3.0, 1.5)),
-        ("flat", 0.6, 0.0),
-        ("r4", 0.6, 0.0),
-        ("cone", 0.6, 0.0),
-        ("flat", 0.6, 0.3),
-        ("paraboloid", 0.6, 0.3),
-        ("cone", 3.0, 3.0),
         *((shape, 5.0, T) for shape in CURVED for T in (0.3, 3.0)),
     ],
 )
-def test_a_body_against_the_twin(shape, depth_ratio, T, body):
-    twin = reference.full_slip_critical_velocity(SHAPES[shape][1], depth_ratio, T, **body)
-    assert_allclose(v_hat_c(contact(shape, depth_ratio, T, **body)), twin, rtol=BUDGET)
+def test_a_body_that_keeps_contact_against_the_twin(shape, depth_ratio, T, body):
+    """Contact that is lost is among the random ones below, where the twin knows fewer digits."""
+    exponent, K = SHAPES[shape][1], body["k_ratio"]
+    size = depth_ratio ** (1 / exponent)  # of the contact at the mean depth
+    M, C, K = (size * one for one in (K / body["omega_0_ratio"] ** 2, body["c_ratio"], K))
+    cos, nothing = np.ones(1, dtype=complex), np.zeros(0)
+    known = full_slip.critical_velocity(cos, nothing, exponent, depth_ratio, T, None, M, C, K, n_t=1024, n=1)
+    assert_allclose(v_hat_c(contact(shape, depth_ratio, T, **body)), known, rtol=BUDGET)
 
 
 # --- resonance ---
@@ -112,13 +112,6 @@ def test_it_is_infinite_on_the_resonance_of_any_harmonic_of_the_force(shape, T, 
     assert math.isfinite(mdr.full_slip_critical_velocity(on_resonance(shape, multiple, 1e-3, depth_ratio, T)))
 
 
-@pytest.mark.parametrize("multiple", [2, 3, 10])
-@pytest.mark.parametrize("T", [0.0, 0.5])
-def test_a_punch_that_keeps_contact_has_no_higher_harmonics_to_resonate(T, multiple):
-    case = on_resonance("flat", multiple, T=T)
-    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-9)
-
-
 @pytest.mark.parametrize("multiple", [1, 2, 3])
 def test_arms_resonate_where_their_force_has_the_harmonic(multiple):
     """A punch that keeps contact has one harmonic whatever its material, so Eq. (15) at other natural frequencies."""
@@ -133,14 +126,6 @@ def test_arms_resonate_where_their_force_has_the_harmonic(multiple):
 
 
 # --- any body, any shape ---
-
-
-def test_a_kinked_profile_against_its_closed_form():
-    """A paraboloid as a callable, and one with an idle kink: mapped by quadrature to 1e-9."""
-    ball = contact("paraboloid", 2.0, 0.5, **DAMPED)
-    for kinks in ((), (1e-4,)):
-        shape = mdr.Profile(lambda r: r**2 / 1e-2, kinks=kinks, name="ball")
-        assert_allclose(v_hat_c(contact(shape, 2.0, 0.5, **DAMPED)), v_hat_c(ball), rtol=BUDGET)
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -75,18 +75,6 @@ def test_the_edge_band_is_that_of_the_least_extension_of_the_past():
     assert laws.edge_band(v) == pytest.approx(weight @ lag[:-1] / lag[-1] - 1, abs=v * 2 * np.pi / n)
 
 
-def test_the_edge_band_tends_to_its_limits():
-    assert laws.edge_band(1e-9) == pytest.approx(-0.25, abs=1e-8)
-    short = np.array([1e-2, 1e-4])
-    ratio = np.array([laws.edge_band(1 - x) for x in short]) / np.sqrt(short)  # the gaps passed during a stick
-    assert ratio[1] == pytest.approx(ratio[0], rel=0.02)
-
-
-def test_an_elastic_surface_is_always_back_in_time():
-    assert laws.amplitude_limit(0.0) == np.inf
-    assert laws.late_return(1e-9, 0.0) == 1.0
-
-
 @pytest.mark.parametrize("shape", [mdr.Cone(theta=0.05), mdr.Paraboloid(R=5e-3), mdr.PowerLaw(n=4, c=1e8)])
 @pytest.mark.parametrize("T", [0.0, 1.0])
 def test_the_error_of_eq_15_at_small_amplitude_knows_one_number_of_the_shape(shape, T):

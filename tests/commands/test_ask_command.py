@@ -1,12 +1,10 @@
 """`mdr find` and `mdr tolerance`: the answers of the functions, with units, as text, JSON and files."""
 
-import json
-
 import pytest
+from answers import json_of, words_of
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.__main__ import main
 from mdr.given.case_file import read_said
 
 CASE = """
@@ -35,25 +33,21 @@ def sled(tmp_path):
 
 def test_find(capsys, sled):
     wish = ["--v-0", "10mm/s", "--cof", "0.5", "mu_0", "--within", "0.1", "um", "5 um"]
-    assert main(["find", sled, "du_z", *wish, "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
+    answer = json_of(capsys, ["find", sled, "du_z", *wish, "--json"])
     assert (answer["path"], answer["unit"]) == ("oscillation.du_z", "m")
     said = read_said(sled)
     assert answer["values"] == list(mdr.find(said.case, "du_z", v_0=0.01, cof=0.15, within=(1e-7, 5e-6)).values)
-    assert main(["find", sled, "frequency", "--v-c", "10 mm/s"]) == 0
-    assert capsys.readouterr().out.startswith("frequency = 3.97887 kHz")
-    assert main(["find", sled, "E", "--v-c", "10 mm/s"]) == 1
-    assert "none: v_c is 50.265 mm/s" in capsys.readouterr().out
+    assert words_of(capsys, ["find", sled, "frequency", "--v-c", "10 mm/s"]).out.startswith("frequency = 3.97887 kHz")
+    assert "none: v_c is 50.265 mm/s" in words_of(capsys, ["find", sled, "E", "--v-c", "10 mm/s"], 1).out
 
 
 def test_tolerance(capsys, sled, tmp_path):
     folder = tmp_path / "out"
-    assert main(["tolerance", sled, "--v-0", "10mm/s", "--by", "5%", "-o", str(folder), "--json"]) == 0
-    answer, said = json.loads(capsys.readouterr().out), read_said(sled)
+    command = ["tolerance", sled, "--v-0", "10mm/s", "--by", "5%", "-o", str(folder), "--json"]
+    answer, said = json_of(capsys, command), read_said(sled)
     found = mdr.tolerance(said.case, 0.01, 0.05, held=said.held)
     assert {path: tuple(pair) for path, pair in answer["cof"].items()} == found.cof
     assert_allclose(answer["inputs"]["load"], [4.75, 5.25])
     assert (folder / "tolerance.csv").read_text(encoding="utf-8").endswith(found.table())
     assert {path.name for path in folder.iterdir()} == {"tolerance.csv", "tolerance.png", "tolerance.svg"}
-    assert main(["tolerance", sled, "--v-0", "10mm/s", "--fields", "load"]) == 0
-    assert "load" in capsys.readouterr().out
+    assert "load" in words_of(capsys, ["tolerance", sled, "--v-0", "10mm/s", "--fields", "load"]).out

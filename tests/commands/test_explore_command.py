@@ -1,6 +1,5 @@
 """`mdr explore` until its page is served: what it refuses, and what it prints. The page itself: tests/explorer/."""
 
-import json
 import logging
 import socket
 import sys
@@ -9,6 +8,7 @@ from types import SimpleNamespace
 
 import matplotlib as mpl
 import pytest
+from answers import json_of, words_of
 from conftest import contact
 
 import mdr
@@ -43,16 +43,16 @@ def server(monkeypatch):
 
 
 def test_it_serves_until_an_interrupt(capsys, server):
-    assert main(["explore", "--port", "5100"]) == 0
-    assert capsys.readouterr().out == (
+    assert words_of(capsys, ["explore", "--port", "5100"]).out == (
         "mdr explore: http://127.0.0.1:5100/ on this machine alone; end it with Ctrl-C\n"
     )
     assert server == ["starts", "shows /", "waits", "stops"]
 
 
 def test_it_opens_no_browser_and_speaks_to_machines_where_asked(capsys, server):
-    assert main(["explore", "--no-browser", "--json", "--port", "5100"]) == 0
-    assert json.loads(capsys.readouterr().out)["address"] == "http://127.0.0.1:5100/"
+    assert (
+        json_of(capsys, ["explore", "--no-browser", "--json", "--port", "5100"])["address"] == "http://127.0.0.1:5100/"
+    )
     assert "shows /" not in server
 
 
@@ -89,8 +89,7 @@ def test_a_page_by_another_address_is_let_in_where_it_is_named(capsys):
 def test_a_wrong_file_is_status_2(capsys, tmp_path):
     path = tmp_path / "case.toml"
     path.write_text("mu_0 = \n")
-    assert main(["explore", str(path)]) == 2
-    assert capsys.readouterr().err.startswith(f"mdr: {path}: line 1: ")
+    assert words_of(capsys, ["explore", str(path)], 2).err.startswith(f"mdr: {path}: line 1: ")
 
 
 def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
@@ -100,23 +99,22 @@ def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
         contact("flat"), indenter=mdr.ConcavePunch(1e-3, 1.0), oscillation=mdr.LoadOscillation(1e-9, 1e-10, 300)
     )
     path.write_text(mdr.write_case(case))
-    assert main(["explore", str(path)]) == 2
-    assert str(path) in capsys.readouterr().err
+    assert str(path) in words_of(capsys, ["explore", str(path)], 2).err
 
 
 def test_a_port_that_is_taken_is_status_2(capsys):
     pytest.importorskip("panel")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        assert main(["explore", "--no-browser", "--port", str(port)]) == 2
-    assert f"port {port} cannot be used (" in capsys.readouterr().err
+        assert (
+            f"port {port} cannot be used (" in words_of(capsys, ["explore", "--no-browser", "--port", str(port)], 2).err
+        )
 
 
 def test_without_panel_it_says_how_to_install_it(capsys, monkeypatch):
     monkeypatch.delitem(sys.modules, "mdr.explorer.server", raising=False)
     monkeypatch.setitem(sys.modules, "panel", None)
-    assert main(["explore"]) == 2
-    assert ".[explore]" in capsys.readouterr().err
+    assert ".[explore]" in words_of(capsys, ["explore"], 2).err
 
 
 def test_a_page_that_is_closed_is_no_fault():

@@ -1,10 +1,10 @@
 """`mdr export`: files, and what is refused."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from answers import json_of, words_of
 
 import mdr
 from mdr.__main__ import main
@@ -14,8 +14,8 @@ EXAMPLE = str(Path(__file__).parents[2] / "docs" / "example.toml")
 
 def test_a_header_names_its_case_and_command(tmp_path, capsys):
     path = tmp_path / "foot.h"
-    assert main(["export", EXAMPLE, "-o", str(path), "--json"]) == 0
-    text, said = path.read_text(encoding="utf-8"), json.loads(capsys.readouterr().out)
+    said = json_of(capsys, ["export", EXAMPLE, "-o", str(path), "--json"])
+    text = path.read_text(encoding="utf-8")
     assert f"mdr export {EXAMPLE}"[:60] in text
     assert '[material] model = "KelvinVoigt", E = 3000000.0' in text
     case = mdr.read_case(EXAMPLE)
@@ -27,8 +27,7 @@ def test_a_header_names_its_case_and_command(tmp_path, capsys):
 
 def test_without_a_compiler_the_sources_come_out(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("CC", "no-such-compiler")
-    assert main(["export", EXAMPLE, "-o", str(tmp_path / "foot.fmu")]) == 1
-    assert "CC" in capsys.readouterr().err
+    assert "CC" in words_of(capsys, ["export", EXAMPLE, "-o", str(tmp_path / "foot.fmu")], 1).err
     assert sorted(one.name for one in tmp_path.iterdir()) == ["foot.h", "foot_fmu.c"]
 
 
@@ -36,8 +35,9 @@ def test_a_load_knows_its_depth(tmp_path, capsys):
     load = replace(mdr.read_case(EXAMPLE), oscillation=mdr.LoadOscillation(0.02, 0.005, 300.0))
     case = tmp_path / "load.toml"
     case.write_text(mdr.write_case(load), encoding="utf-8")
-    assert main(["export", str(case), "-o", str(tmp_path / "a.h"), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["u_z_max"] == pytest.approx(1.05 * mdr.resolved(load).u_z_max)
+    assert json_of(capsys, ["export", str(case), "-o", str(tmp_path / "a.h"), "--json"])["u_z_max"] == pytest.approx(
+        1.05 * mdr.resolved(load).u_z_max
+    )
 
 
 def test_arms_are_refused_and_nothing_is_written(tmp_path, capsys):

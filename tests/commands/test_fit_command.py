@@ -1,12 +1,12 @@
 """`mdr fit`: the table, the files and the JSON of a fit, and what wrong input is told."""
 
-import json
 import sys
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import numpy as np
 import pytest
+from answers import json_of, words_of
 from conftest import contact
 
 import mdr
@@ -36,8 +36,7 @@ def test_a_fit_is_printed_and_written(files, capsys):
 
 def test_machines_are_told_what_is_not_determined(files, capsys):
     arguments = ["--free", "mu_0", "material.tau", "--bounds", "material.tau=9e-4:1.1e-3", "--json"]
-    assert main([*files, *arguments]) == 0
-    told = json.loads(capsys.readouterr().out)
+    told = json_of(capsys, [*files, *arguments])
     tau, mu_0 = told["parameters"]["material.tau"], told["parameters"]["mu_0"]
     assert (tau["low"], tau["high"], tau["determined"], tau["unit"]) == (None, None, False, "s")
     assert mu_0["determined"]
@@ -49,14 +48,12 @@ def test_machines_are_told_what_is_not_determined(files, capsys):
 
 def test_a_fault_of_the_data_names_their_file(files, capsys):
     Path("data.csv").write_text(DATA.replace("0.49", "high"))
-    assert main([*files, "--free", "mu_0"]) == 2
-    assert "data.csv: line 4: high is no number (column cof)" in capsys.readouterr().err
+    assert "data.csv: line 4: high is no number (column cof)" in words_of(capsys, [*files, "--free", "mu_0"], 2).err
 
 
 def test_standard_input_stands_for_one_file(files, capsys, monkeypatch):
     monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(CASE.encode("utf-8")), encoding="utf-8"))
-    assert main(["fit", "-", "-", "--free", "mu_0"]) == 2
-    assert "standard input can be read once" in capsys.readouterr().err
+    assert "standard input can be read once" in words_of(capsys, ["fit", "-", "-", "--free", "mu_0"], 2).err
 
 
 def test_a_load_of_the_file_holds_while_the_modulus_is_fitted(files, capsys):
@@ -68,6 +65,5 @@ def test_a_load_of_the_file_holds_while_the_modulus_is_fitted(files, capsys):
     rows = [f"{1e3 * v!r}, {one!r}, 1e-4" for v, one in zip(v_0.tolist(), cof.tolist(), strict=True)]
     Path("data.csv").write_text("\n".join(["v_0 [mm/s], cof, error", *rows]))
     Path("case.toml").write_text(text.replace("E = 3000000.0", "E = 2e6"))
-    assert main([*files, "--free", "material.E", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["parameters"]["material.E"]
+    found = json_of(capsys, [*files, "--free", "material.E", "--json"])["parameters"]["material.E"]
     assert found["value"] == pytest.approx(3e6, rel=1e-3)

@@ -1,7 +1,8 @@
 """`mdr half-space`: what it prints, writes and returns."""
 
-import json
 from dataclasses import replace
+
+from answers import json_of, words_of
 
 import mdr
 from mdr.__main__ import main
@@ -33,24 +34,13 @@ def test_it_writes_what_it_prints(tmp_path, capsys):
 
 def test_it_tells_machines_and_an_unsettled_run_fails(tmp_path, capsys):
     shaken = replace(BALL, shake=mdr.InPlaneOscillation(omega=300.0, du_y=6e-6, phi_y=1.0))
-    line = [
-        "half-space",
-        file_of(shaken, tmp_path),
-        "--v-0",
-        "-0.3mm/s",
-        *FEW,
-        "--uncoupled",
-        "--cycles",
-        "1",
-        "--json",
-    ]
-    assert main(line) == 1
-    told = json.loads(capsys.readouterr().out)
+    line = ["half-space", file_of(shaken, tmp_path), "--v-0", "-0.3mm/s", *FEW]
+    line += ["--uncoupled", "--cycles", "1", "--json"]
+    told = json_of(capsys, line, 1)
     assert (told["settled"], told["coupled"], told["n_periods"], told["cells"]) == (False, False, 1, 9)
     assert told["cof"] < 0 < told["cof_error"]
 
 
 def test_a_pull_that_yields_is_refused(tmp_path, capsys):
     yields = replace(BALL, pull=mdr.SpringPull(k_x=1e4))
-    assert main(["half-space", file_of(yields, tmp_path), "--v-0", "1e-4"]) == 1
-    assert "takes a rigid pull" in capsys.readouterr().err
+    assert "takes a rigid pull" in words_of(capsys, ["half-space", file_of(yields, tmp_path), "--v-0", "1e-4"], 1).err

@@ -1,6 +1,5 @@
 """The command line: what it prints, writes and returns."""
 
-import json
 import os
 import shlex
 import subprocess
@@ -14,6 +13,7 @@ from shutil import which
 
 import numpy as np
 import pytest
+from answers import json_of, words_of
 from conftest import contact
 from numpy.testing import assert_allclose
 from PIL import Image
@@ -57,13 +57,6 @@ def made_up_curve(case, v_0, accuracy=1e-5, settled=True):
     )  # fmt: skip
 
 
-def strict_json(text):
-    def refuse(literal):
-        raise AssertionError(literal)
-
-    return json.loads(text, parse_constant=refuse)
-
-
 # --- velocity ---
 
 
@@ -76,8 +69,7 @@ def test_velocity(capsys):
 
 
 def test_velocity_for_machines(capsys, punch):
-    assert main(["velocity", "--json", punch]) == 0
-    answer, case = strict_json(capsys.readouterr().out), read_case(punch)
+    answer, case = json_of(capsys, ["velocity", "--json", punch]), read_case(punch)
     assert answer["equation"] == "Eq. (1)"
     assert answer["v_c"] == mdr.critical_velocity(case)
     assert answer["full_slip"] == mdr.full_slip_critical_velocity(case)
@@ -87,10 +79,8 @@ def test_velocity_for_machines(capsys, punch):
 
 
 def test_a_resonance_is_an_answer(capsys, resonant):
-    assert main(["velocity", resonant]) == 0
-    assert "infinite, friction is below mu_0 at every velocity" in capsys.readouterr().out
-    assert main(["velocity", "--json", resonant]) == 0
-    assert strict_json(capsys.readouterr().out)["v_c"] == "inf"
+    assert "infinite, friction is below mu_0 at every velocity" in words_of(capsys, ["velocity", resonant]).out
+    assert json_of(capsys, ["velocity", "--json", resonant])["v_c"] == "inf"
 
 
 # --- curve ---
@@ -121,8 +111,7 @@ def test_curve_without_a_folder_writes_nothing(capsys, punch, tmp_path, monkeypa
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     before = set(tmp_path.iterdir())
-    assert main(["curve", punch, "--json"]) == 0
-    answer = strict_json(capsys.readouterr().out)
+    answer = json_of(capsys, ["curve", punch, "--json"])
     assert len(answer["v_0"]) == len(answer["cof"]) == len(answer["why"]) == 24
     assert answer["settled"] == [True] * 24
     assert set(tmp_path.iterdir()) == before
@@ -135,8 +124,7 @@ def test_an_unsettled_curve_is_shown_and_fails(capsys, punch, tmp_path, monkeypa
     assert err == "mdr: 1 of 2 runs did not settle\n  F_x still drifts\n"
     assert out.splitlines()[-1].endswith("no")
     assert (tmp_path / "curve.csv").exists()
-    assert main(["curve", punch, "--points", "2", "--json"]) == 1
-    assert strict_json(capsys.readouterr().out)["cof_error"][1] is None
+    assert json_of(capsys, ["curve", punch, "--points", "2", "--json"], 1)["cof_error"][1] is None
 
 
 def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, monkeypatch):
@@ -160,17 +148,8 @@ def test_a_curve_on_a_resonance_is_scaled_by_eq_1(capsys, resonant, tmp_path, mo
 def test_velocities_of_a_curve_in_metres_per_second_or_over_v_c(capsys, punch, monkeypatch, options, velocities):
     monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     half = 0.5 * mdr.critical_velocity(read_case(punch))
-    assert main(["curve", punch, *options, "--json"]) == 0
-    answer = strict_json(capsys.readouterr().out)
+    answer = json_of(capsys, ["curve", punch, *options, "--json"])
     assert_allclose(answer["v_0"], [half if one is None else one for one in velocities], rtol=1e-15)
-
-
-def test_files_that_are_there_are_named_before_they_are_overwritten(capsys, punch, tmp_path, monkeypatch):
-    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
-    (tmp_path / "curve.csv").write_text("mine")
-    assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 0
-    assert capsys.readouterr().err == f"mdr: will be overwritten: {tmp_path / 'curve.csv'}\n"
-    assert "mine" not in (tmp_path / "curve.csv").read_text(encoding="utf-8")
 
 
 # --- run ---
@@ -208,8 +187,7 @@ def test_a_run_is_animated(capsys, punch, tmp_path):
 
 
 def test_a_run_for_machines(capsys, punch):
-    assert main(["run", punch, "--v-0", "1mm/s", "--json", *RUN]) == 0
-    answer = strict_json(capsys.readouterr().out)
+    answer = json_of(capsys, ["run", punch, "--v-0", "1mm/s", "--json", *RUN])
     assert (answer["v_0"], answer["settled"], answer["n_springs"], answer["steps_per_period"]) == (1e-3, True, 64, 256)
     assert abs(answer["mean_F_x"] / answer["mean_F_z"] - answer["cof"]) < 1e-12
     assert abs(answer["energy_balance"]["residual"]) < 1e-3 * answer["energy_balance"]["friction_loss"]
@@ -219,8 +197,7 @@ def test_a_run_that_does_not_settle_fails(capsys, punch, monkeypatch):
     case = read_case(punch)
     loose = mdr.slide(case, 1e-5, n_springs=32, steps_per_period=64, n_periods=2, record=1)
     monkeypatch.setattr("mdr.slide", lambda *args, **knobs: replace(loose, settled=False, why="it drifts"))
-    assert main(["run", punch, "--v-0", "1e-5"]) == 1
-    assert capsys.readouterr().err == "mdr: the run did not settle\n  it drifts\n"
+    assert words_of(capsys, ["run", punch, "--v-0", "1e-5"], 1).err == "mdr: the run did not settle\n  it drifts\n"
 
 
 # --- standard input, and what goes before the command ---
@@ -234,24 +211,13 @@ def test_a_case_may_come_from_standard_input(capsys, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "-").write_text("a file of this name is not meant")
     given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
-    assert main(["velocity", "-", "--json"]) == 0
-    assert strict_json(capsys.readouterr().out)["v_c"] == mdr.critical_velocity(read_case(EXAMPLE))
+    assert json_of(capsys, ["velocity", "-", "--json"])["v_c"] == mdr.critical_velocity(read_case(EXAMPLE))
     given(monkeypatch, "mu_0 = ")
-    assert main(["verdict", "-"]) == 2
-    assert capsys.readouterr().err.startswith("mdr: standard input: line 1: ")
+    assert words_of(capsys, ["verdict", "-"], 2).err.startswith("mdr: standard input: line 1: ")
     given(monkeypatch, Path(EXAMPLE).read_text(encoding="utf-8"))
-    assert main(["sweep", "-", "--json"]) == 2
-    assert "mdr: standard input: [axes] is missing" in capsys.readouterr().err
+    assert "mdr: standard input: [axes] is missing" in words_of(capsys, ["sweep", "-", "--json"], 2).err
     monkeypatch.setattr(sys, "stdin", None)
-    assert main(["velocity", "-"]) == 2
-    assert capsys.readouterr().err == "mdr: standard input: cannot be read: it is closed\n"
-
-
-def test_json_stands_before_the_command_too(capsys, punch):
-    assert main(["--json", "velocity", punch]) == 0
-    before = strict_json(capsys.readouterr().out)
-    assert main(["velocity", punch, "--json"]) == 0
-    assert strict_json(capsys.readouterr().out)["v_c"] == before["v_c"]
+    assert words_of(capsys, ["velocity", "-"], 2).err == "mdr: standard input: cannot be read: it is closed\n"
 
 
 # --- completion ---
@@ -303,16 +269,13 @@ class MadeUpVerdict:
 @pytest.mark.parametrize(("found", "status"), [(FOUND, 0), (NOTHING, 1)])
 def test_measure(capsys, monkeypatch, found, status):
     monkeypatch.setattr("mdr.measure_critical_velocity", lambda case, direction, accuracy: found)
-    assert main(["measure", EXAMPLE]) == status
-    assert found.why in capsys.readouterr().out
-    assert main(["measure", EXAMPLE, "--json"]) == status
-    assert strict_json(capsys.readouterr().out)["v_c"] == found.v_c
+    assert found.why in words_of(capsys, ["measure", EXAMPLE], status).out
+    assert json_of(capsys, ["measure", EXAMPLE, "--json"], status)["v_c"] == found.v_c
 
 
 def test_verdict(capsys, monkeypatch):
     monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: MadeUpVerdict())
-    assert main(["verdict", EXAMPLE]) == 0
-    assert capsys.readouterr().out.splitlines() == [
+    assert words_of(capsys, ["verdict", EXAMPLE]).out.splitlines() == [
         "Eq. (15) is good: one element",
         "Eq. (15)   0.1 m/s     contact stiffness at the mean depth",
         "full slip  0.1 m/s     any amplitude, all harmonics of the force",
@@ -321,8 +284,7 @@ def test_verdict(capsys, monkeypatch):
         "good       yes         to 1 %",
         "holds      yes         to the bracket of the measurement",
     ]
-    assert main(["verdict", EXAMPLE, "--json"]) == 0
-    answer = strict_json(capsys.readouterr().out)
+    answer = json_of(capsys, ["verdict", EXAMPLE, "--json"])
     assert (answer["holds"], answer["good"], answer["within"]) == (True, True, 0.01)
     assert answer["sentence"] == "Eq. (15) is good: one element"
 
@@ -358,10 +320,8 @@ def test_a_verdict_without_measurement_fails_unless_there_is_no_v_c(capsys, monk
     found.eq_15, found.full_slip, found.measured, found.deviation, found.holds = np.inf, np.nan, measured, None, holds
     found.good = None
     monkeypatch.setattr("mdr.verdict", lambda case, within, accuracy, three_dimensions: found)
-    assert main(["verdict", EXAMPLE]) == status
-    assert "good       undefined" in capsys.readouterr().out
-    assert main(["verdict", EXAMPLE, "--json"]) == status
-    answer = strict_json(capsys.readouterr().out)
+    assert "good       undefined" in words_of(capsys, ["verdict", EXAMPLE], status).out
+    answer = json_of(capsys, ["verdict", EXAMPLE, "--json"], status)
     assert (answer["eq_15"], answer["full_slip"], answer["measured"], answer["good"]) == ("inf", None, measured, None)
 
 
@@ -467,19 +427,12 @@ def test_a_wrong_file_is_status_2_with_every_fault(capsys, tmp_path):
 def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("")
-    assert main(["curve", EXAMPLE, "-o", str(blocked)]) == 2
-    assert f"mdr: {blocked}: no folder to write to: " in capsys.readouterr().err
+    assert f"mdr: {blocked}: no folder to write to: " in words_of(capsys, ["curve", EXAMPLE, "-o", str(blocked)], 2).err
     (tmp_path / "out" / "curve.csv").mkdir(parents=True)
     assert main(["curve", EXAMPLE, "-o", str(tmp_path / "out")]) == 2
     assert "curve.csv: is a folder, where a file is to be written" in capsys.readouterr().err
     assert main(["curve", EXAMPLE, "-o", "/proc/self"]) in (1, 2)  # root may write anywhere, but not there
     assert "Traceback" not in capsys.readouterr().err
-
-
-def test_a_command_in_no_encoding_is_kept_all_the_same(punch, tmp_path):
-    folder = tmp_path / "m\udcff"
-    assert main(["curve", punch, "-o", str(folder), "--points", "2"]) == 0
-    assert "m\\udcff" in (folder / "curve.csv").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -494,8 +447,7 @@ def test_work_that_fails_ends_in_a_sentence(capsys, monkeypatch, failure, status
         raise failure
 
     monkeypatch.setattr("mdr.verdict", fail)
-    assert main(["verdict", EXAMPLE]) == status
-    assert capsys.readouterr().err == message
+    assert words_of(capsys, ["verdict", EXAMPLE], status).err == message
 
 
 # --- as a program ---
@@ -522,8 +474,7 @@ def test_shapes_names_all_that_a_file_can_name(capsys):
     shown = capsys.readouterr().out
     for name in ("[indenter]", "Cone", "[material]", "Prony", "LoadOscillation", "[pull]", "k_x"):
         assert name in shown
-    assert main(["shapes", "--json"]) == 0
-    told = strict_json(capsys.readouterr().out)
+    told = json_of(capsys, ["shapes", "--json"])
     assert told["indenter"]["Cone"]["keys"]["theta"] == {"unit": "rad", "meaning": "angle between flank and plane"}
     assert all(one["is"] for table in ("indenter", "material", "oscillation") for one in told[table].values())
 
@@ -532,8 +483,7 @@ def test_an_example_goes_through_the_other_commands(tmp_path, capsys):
     assert main(["case", "--example", "flat_punch", "--material", "elastic", "--pull", "RigidPull"]) == 0
     path = tmp_path / "case.toml"
     path.write_text(capsys.readouterr().out, encoding="utf-8")
-    assert main(["velocity", str(path), "--json"]) == 0
-    assert strict_json(capsys.readouterr().out)["v_c"] > 0
+    assert json_of(capsys, ["velocity", str(path), "--json"])["v_c"] > 0
 
 
 @pytest.mark.filterwarnings("always::mdr.PlausibilityWarning")
@@ -546,22 +496,19 @@ def test_what_is_unlikely_is_said_on_standard_error_and_computed(tmp_path, capsy
     assert "Eq. (" in said.out
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        assert main(["velocity", str(file)]) == 0
-    assert capsys.readouterr().err == ""
+        assert words_of(capsys, ["velocity", str(file)]).err == ""
 
 
 def test_what_a_shaken_contact_holds_at_rest_is_told_to_machines(capsys, punch):
     case = replace(read_case(punch), shake=mdr.InPlaneOscillation(omega=100.0, du_x=2e-7))
     Path(punch).write_text(write_case(case), encoding="utf-8")
     for command in ("measure", "verdict"):
-        assert main([command, "--json", "--accuracy", "1e-3", punch]) == 0
-        told = strict_json(capsys.readouterr().out)
+        told = json_of(capsys, [command, "--json", "--accuracy", "1e-3", punch])
         band = mdr.holding_band(case)
         assert told["holding_band"] == [band.low, band.high]
         assert {"blocked_cof", "no_load_velocity", "other_way"} <= set(told)
     for command in (["velocity"], ["curve", "--points", "3"]):
-        assert main([*command, "--json", punch]) == 0
-        told = strict_json(capsys.readouterr().out)
+        told = json_of(capsys, [*command, "--json", punch])
         assert told["holding_band"] == [band.low, band.high]
         assert told["v_c_back"] == mdr.critical_velocity(case, -1)
 
@@ -569,8 +516,7 @@ def test_what_a_shaken_contact_holds_at_rest_is_told_to_machines(capsys, punch):
 def test_a_multiple_of_v_c_the_other_way_is_of_that_ways_own(capsys, punch):
     case = replace(read_case(punch), shake=mdr.InPlaneOscillation(omega=100.0, du_x=2e-7))
     Path(punch).write_text(write_case(case), encoding="utf-8")
-    assert main(["run", punch, "--json", "--accuracy", "1e-3", "--v-0", "-0.5v_c"]) == 0
-    told = strict_json(capsys.readouterr().out)
+    told = json_of(capsys, ["run", punch, "--json", "--accuracy", "1e-3", "--v-0", "-0.5v_c"])
     assert told["v_0"] == pytest.approx(-0.5 * mdr.critical_velocity(case, -1), rel=1e-12)
 
 
@@ -587,15 +533,13 @@ def across(tmp_path):
 
 def test_velocity_of_a_shake_across_has_its_group_and_what_stands_in_the_place_of_v_c(capsys, across):
     case = read_case(across)
-    assert main(["velocity", "--json", across]) == 0
-    told = strict_json(capsys.readouterr().out)
+    told = json_of(capsys, ["velocity", "--json", across])
     assert told["eta"] == pytest.approx(10e-6 / (0.4 * case.material.mindlin_ratio * 20e-6))
     assert (told["v_c"], told["v_c_back"], told["fastest_across"]) == ("inf", "inf", pytest.approx(3e-3))
     assert "nearly_full" not in told  # a law of a constant depth
     alone = replace(case, oscillation=mdr.ConstantDepth(u_z0=20e-6))
     Path(across).write_text(write_case(alone), encoding="utf-8")
-    assert main(["velocity", "--json", across]) == 0
-    full = strict_json(capsys.readouterr().out)["nearly_full"]
+    full = json_of(capsys, ["velocity", "--json", across])["nearly_full"]
     assert mdr.laws.lost_across(alone, full) == pytest.approx(0.01)
 
 
@@ -608,8 +552,7 @@ def test_a_verdict_that_is_the_same_both_ways_is_said_once(capsys, across):
 
 
 def test_the_cof_across_is_told_and_written(tmp_path, capsys, across):
-    assert main(["run", "--json", "--accuracy", "1e-3", "--v-0", "1e-3", across]) == 0
-    run = strict_json(capsys.readouterr().out)
+    run = json_of(capsys, ["run", "--json", "--accuracy", "1e-3", "--v-0", "1e-3", across])
     assert run["cof_y"] == pytest.approx(run["mean_F_y"] / run["mean_F_z"])
     assert run["cof_y"] > 0.01
     command = ["curve", across, "--accuracy", "1e-3", "--v-0", "-1e-3", "1e-3", "-o", str(tmp_path)]

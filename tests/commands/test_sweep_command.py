@@ -1,11 +1,11 @@
 """`mdr sweep`: a study from a file, on the command line."""
 
-import json
 import os
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from answers import json_of, words_of
 from conftest import contact
 from numpy.testing import assert_allclose
 
@@ -90,8 +90,7 @@ def test_a_store_is_kept_and_shards_fill_it(file, tmp_path, capsys):
 
 
 def test_json_is_for_machines(file, capsys):
-    assert main(["sweep", file, "--json"]) == 0
-    answer = json.loads(capsys.readouterr().out)
+    answer = json_of(capsys, ["sweep", file, "--json"])
     assert answer["complete"] is True
     assert answer["counts"] == {"done": 12, "unsettled": 0, "failed": 0, "missing": 0}
     assert answer["axes"]["indenter"] == ["Paraboloid(R=0.005)", "Cone(theta=0.05)"]
@@ -108,8 +107,7 @@ def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
     shown = capsys.readouterr()
     assert "    6: u_z0 + du_z = -0.999998 m: the indenter never touches" in shown.out
     assert shown.err == "mdr: 6 of 12 points failed, 0 did not settle\n"
-    assert main(["sweep", file, "--json"]) == 1
-    assert json.loads(capsys.readouterr().out)["values"]["cof"][0][0][0] is None
+    assert json_of(capsys, ["sweep", file, "--json"], 1)["values"]["cof"][0][0][0] is None
 
 
 @pytest.mark.parametrize(
@@ -125,5 +123,4 @@ def test_an_interrupt_is_status_130_and_says_what_is_safe(file, tmp_path, capsys
 
     monkeypatch.setattr(name, interrupted)
     store = ["--store", str(tmp_path / "store")] if stored else []
-    assert main(["sweep", file, "-o", str(tmp_path / "study.nc"), *store]) == 130
-    assert words in capsys.readouterr().err
+    assert words in words_of(capsys, ["sweep", file, "-o", str(tmp_path / "study.nc"), *store], 130).err

@@ -6,24 +6,15 @@ import pickle
 
 import numpy as np
 import pytest
+from elements import ARMS, DOUBLES, ELASTIC, at
 from numpy.testing import assert_array_equal
 
 import mdr
 
-DOUBLES = ctypes.POINTER(ctypes.c_double)
 KIND = ctypes.CFUNCTYPE(ctypes.c_int, DOUBLES, DOUBLES, ctypes.c_double, DOUBLES, DOUBLES, DOUBLES)
-MATERIALS = {
-    "elastic": mdr.Elastic(E=3e6, nu=0.5),
-    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-    "arms": mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
-}
 
 
-def at(values):
-    return values.ctypes.data_as(DOUBLES)
-
-
-@pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS.keys())
+@pytest.mark.parametrize("material", [ELASTIC, ARMS], ids=["elastic", "arms"])  # each is compiled, in some seconds
 def test_the_function_at_its_address_makes_the_steps_of_the_element(material):
     contact = mdr.ContactElement(mdr.Paraboloid(R=5e-3), material, 0.5, u_z_max=40e-6, n_springs=24)
     rng, step = np.random.default_rng(5), KIND(contact.address)

@@ -5,6 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from elements import DOUBLES, at
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -21,7 +22,6 @@ SHAPES = {
 }
 REACH = MU_0 * MATERIALS["elastic"].mindlin_ratio * DEPTH
 WALL = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
-DOUBLES = ctypes.POINTER(ctypes.c_double)
 #: the steps of standard input, "dt x y z" each, and what they answer
 PROGRAM = """
 #include <stdio.h>
@@ -78,10 +78,6 @@ def library(cc, folder, contact, **given):
     made.at_rest.argtypes = [DOUBLES, DOUBLES]
     made.stored.argtypes, made.stored.restype = [DOUBLES], ctypes.c_double
     return made
-
-
-def at(values):
-    return values.ctypes.data_as(DOUBLES)
 
 
 def walk(seed, n=60):

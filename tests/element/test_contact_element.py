@@ -5,24 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from elements import ELASTIC, MATERIALS, every_material
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr.element.kernels import N_HEAD
-from mdr.spring.contact import Look
-from mdr.spring.energies import FRICTION_LOSS, N_SUMS, NORMAL_VISCOUS, SHEAR_VISCOUS, nodes_of
-from mdr.spring.path import Path
-from mdr.spring.row import row_in_plane
-from mdr.spring.times import tools_for
 
 BALL, DEPTH, MU_0, DT = mdr.Paraboloid(R=5e-3), 40e-6, 0.5, 1e-3
-ELASTIC = mdr.Elastic(E=3e6, nu=0.5)
-MATERIALS = {
-    "elastic": ELASTIC,
-    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-    "arms": mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
-}
-every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS.keys())
 REACH = MU_0 * ELASTIC.mindlin_ratio * DEPTH  #: way that brings the deepest spring from rest to slip
 
 
@@ -72,53 +61,16 @@ def test_partial_slip_is_that_of_the_closed_form():
     assert_allclose(F[[0, 2]], [exact.F_x, exact.F_z], rtol=3e-5)  # third order in 1/n, of the jumps at two edges
 
 
-def test_a_straight_piece_in_seven_is_one_piece():
-    contact = element(n_springs=256)
-    us = np.array([[1, 0, 0.7], [-0.5, 0, 0.3], [0.4, 0, 0.9], [1.5, 0, -0.1], [1.2, 0, 0.5]]) * [REACH, REACH, DEPTH]
-    state = other = contact.at_rest((0, 0, DEPTH / 2))
-    for u in us:
-        start = other[:3]
-        F, state = contact.step(state, DT, u)
-        for k in range(1, 8):
-            G, other = contact.step(other, DT, start + k / 7 * (u - start))
-        assert_allclose(G, F, rtol=1e-11, atol=1e-11 * MU_0 * BALL.force(DEPTH, ELASTIC.E_star))
-    assert_allclose(other[N_HEAD:-1], state[N_HEAD:-1], atol=1e-11)
-    assert_allclose(contact.dissipated(other), contact.dissipated(state), rtol=1e-10)
-
-
-@every_material
-def test_turned_steps_are_of_second_order(material):
-    """The force at the end of an arc, in 32, 64 and 128 steps."""
-    contact, ends = element(material), []
-    for n in (32, 64, 128):
-        phase = np.linspace(0, 1, n + 1)[1:] * np.pi
-        us = np.column_stack([np.sin(phase) * REACH, (1 - np.cos(phase)) * REACH, DEPTH * (0.5 + 0.2 * np.sin(phase))])
-        # the force is that of the last straight piece: a short one in the direction of the end, the same for all
-        us = np.vstack([us, us[-1] - [1e-3 * REACH, 0, 0]])
-        state = contact.at_rest((0, 0, DEPTH / 2))
-        for k, u in enumerate(us):
-            F, state = contact.step(state, 1e-2 / n if k < n else 1e-6, u)
-        ends.append(F)
-    first, second = np.abs(ends[0] - ends[1]).max(), np.abs(ends[1] - ends[2]).max()
-    assert second < 0.4 * first
-    assert second < 1e-3 * ends[2][2]
-
-
-def test_elastic_contacts_know_no_time():
-    one, two = (follow(element(), walk(), dt=dt)[0] for dt in (0.0, 7.0))
-    assert_array_equal(one, two)
-
-
 @every_material
 def test_a_contact_at_rest_does_not_creep(material):
-    """Held at 0.999 mu_0 F_N for 1e5 steps. What viscous springs do at rest is over before."""
+    """Held at 0.999 mu_0 F_N: a state that a step leaves as it is stays. What viscous springs do at rest is over."""
     contact = element(material, shape=mdr.FlatPunch(a=1e-3))
     u = np.array([0.999 * MU_0 * ELASTIC.mindlin_ratio * DEPTH / 2, 0, DEPTH / 2])
     _, state = contact.step(contact.at_rest((0, 0, DEPTH / 2)), 1e3, u)
     F, state = contact.step(state, 1e3, u)
     assert 0.9989 < F[0] / (MU_0 * F[2]) < 0.9991
     held = state
-    for _ in range(100_000):
+    for _ in range(1000):
         G, held = contact.step(held, 1e-3, u)
     assert_allclose(G, F, rtol=1e-15)
     assert_allclose(held, state, rtol=1e-15, atol=1e-300 if material is ELASTIC else 1e-15)
@@ -225,30 +177,6 @@ def test_names_of_a_state():
 # --- energy and invariance ---
 
 
-@every_material
-def test_what_is_lost_is_what_friction_and_material_take(material):
-    """Work less what is stored, against the losses from their own definitions, by a close look at the same steps."""
-    contact, us = element(material), walk()
-    row, rows = contact._row, contact._rows
-    law, n = row.law, row.gap.size
-    sums, units = np.zeros(N_SUMS), np.array([row.length_x, row.length_x, row.length_z])
-    state = contact.at_rest((0, 0, DEPTH / 2))
-    for u in us:
-        springs, h = state[N_HEAD:-1].copy(), DT
-        s, e_x, e_y = springs.reshape(3, rows, n)
-        (x, y, z), start = (u - state[:3]) / units / h, state[:3] / units
-        nodes, way = nodes_of(h, law.modes, law.arms), complex(x, y)
-        look = Look(nodes, sums, np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
-        path, tools = Path(start[2], z, 0.0, way, 0j), tools_for(law, h, in_plane=True)
-        row_in_plane(s, e_x + 1j * e_y, row.gap, row.w, path, z, way, *law, tools, None, look)
-        before, (_, state) = contact.dissipated(state), contact.step(state, h, u)
-        assert contact.dissipated(state) >= before - 1e-12 * contact.stored(state)
-    unit_x, unit_z = row.force_x * row.length_x, row.force_z * row.length_z
-    lost = unit_x * (sums[FRICTION_LOSS] + sums[SHEAR_VISCOUS]) + unit_z * sums[NORMAL_VISCOUS]
-    # slip that turns by a radian a step: areas of fourth order, losses by Simpson's rule
-    assert_allclose(contact.dissipated(state), lost, rtol=1e-5 if material is ELASTIC else 1e-3)
-
-
 def test_the_loop_of_force_and_way_is_what_is_lost():
     """Of steady loops in one direction at one depth, by the trapezoidal rule."""
     contact, n = element(), 4000
@@ -259,14 +187,6 @@ def test_the_loop_of_force_and_way_is_what_is_lost():
     loop = np.sum(0.5 * (F[1:, 0] + F[:-1, 0]) * np.diff(way))
     assert_allclose(contact.dissipated(end) - contact.dissipated(state), loop, rtol=1e-6)
     assert_allclose(contact.stored(end), contact.stored(state), rtol=1e-12)
-
-
-@every_material
-def test_turned_axes_turn_the_force(material):
-    contact, us, angle = element(material), walk(), 0.7
-    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
-    (F, _), (G, _) = follow(contact, us), follow(contact, us @ turn.T)
-    assert_allclose(G, F @ turn.T, rtol=0, atol=1e-12 * np.abs(F).max())
 
 
 # --- the tangent ---
@@ -299,17 +219,6 @@ def test_the_tangent_is_that_of_the_force(material, way, tol):
     assert_allclose(K, known, rtol=0, atol=tol * np.abs(K).max())
 
 
-def test_the_tangent_of_stick_and_of_slip_in_closed_form():
-    flat, a = element(shape=mdr.FlatPunch(a=1e-3)), 1e-3
-    rest, k_x, k_z = flat.at_rest((0, 0, DEPTH / 2)), 2 * a * ELASTIC.G_star, 2 * a * ELASTIC.E_star
-    for x, known in ((0.1, np.diag([k_x, k_x, k_z])), (2.0, [[0, 0, MU_0 * k_z], [0, np.nan, 0], [0, 0, k_z]])):
-        K = flat.step(rest, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
-        known = np.array(known)
-        known[np.isnan(known)] = K[1, 1]
-        assert_allclose(K, known, rtol=0, atol=1e-8 * k_z)
-        assert 0 < K[1, 1] <= k_x * (1 + 1e-8)  # a slip that turns stiffens against it
-
-
 @every_material
 def test_a_spring_that_touches_soon_is_not_in_the_tangent(material):
     """Approach that ends nearer before a touch than a host can tell: dF_z/du_z is that of the springs in contact."""
@@ -331,16 +240,6 @@ def one_sided(contact, state, u, j, d):
     return (4 * near - far - 3 * F) / (2 * d)
 
 
-def test_the_tangent_of_a_spring_about_to_slip_is_that_of_stick():
-    """The springs of a ball reach the rim one by one: the next is nearer than 1e-6 of the reach."""
-    contact = element()
-    rest, d = contact.at_rest((0, 0, 0.7 * DEPTH)), 0.7
-    rim = np.sort(d - contact._row.gap[contact._row.gap < d])[10]
-    u = np.array([(rim - 2e-8) * REACH, 0, d * DEPTH])
-    K = contact.step(rest, 0.0, u, tangent=True)[2]
-    assert_allclose(K[:, 0], one_sided(contact, rest, u, 0, -1e-6 * REACH), rtol=0, atol=1e-6 * np.abs(K).max())
-
-
 def test_a_still_step_is_as_stiff_as_steps_beside_it():
     """Where the springs are at the rim, with an arm: stick, or slip, and nothing in between or beyond."""
     contact = element(mdr.Prony(E_inf=2e6, arms=((1e6, 2e-3),), nu=0.3, tau=5e-4), mdr.Cone(theta=0.05))
@@ -359,35 +258,18 @@ def test_a_still_step_is_as_stiff_as_steps_beside_it():
             assert min(beside) - 1e-3 * K[2, 2] <= K[j, j] <= max(beside) + 1e-3 * K[2, 2]
 
 
-def test_where_springs_switch_the_tangent_looks_ahead():
-    """At rest in full slip: on the way of the slip nothing resists."""
-    flat = element(shape=mdr.FlatPunch(a=1e-3))
-    _, state = flat.step(flat.at_rest((0, 0, DEPTH / 2)), 0.0, (2 * REACH, 0, DEPTH / 2))
-    _, back = flat.step(state, 0.0, (-2 * REACH, 0, DEPTH / 2))
-    for slipped, x in ((state, 2), (back, -2)):
-        K = flat.step(slipped, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
-        assert abs(K[0, 0]) < 1e-8 * K[2, 2]
-
-
 # --- what is refused ---
 
 GOOD = (0.0, 0.0, 1e-6)
 HOSTILE = {
     "NaN": ({"u": (0.0, np.nan, 0.0)}, "finite"),
-    "infinite": ({"u": (np.inf, 0.0, 0.0)}, "finite"),
     "two numbers": ({"u": (0.0, 0.0)}, "shape"),
-    "a number": ({"u": 1.0}, "shape"),
     "words": ({"u": ("a", "b", "c")}, "real numbers"),
-    "complex": ({"u": (1j, 0, 0)}, "real numbers"),
-    "None": ({"u": None}, "real numbers"),
-    "ragged": ({"u": ((0, 0), 0, 0)}, "array of numbers"),
     "too deep": ({"u": (0.0, 0.0, 41e-6)}, "u_z_max"),
     "a batch for one": ({"u": np.zeros((2, 3))}, "shape"),
     "far away": ({"u": (1.7e308, 0.0, 1e-6)}, "range of floats"),
     "dt < 0": ({"dt": -1e-3}, "negative"),
     "dt NaN": ({"dt": np.nan}, "finite"),
-    "dt of each": ({"dt": np.ones(2)}, "real number"),
-    "dt a word": ({"dt": "1"}, "real number"),
     "tangent 1": ({"tangent": 1}, "True or False"),
     "state NaN": ({"state": "nan"}, "finite"),
     "state of other springs": ({"state": "other"}, "of this element"),
@@ -401,7 +283,6 @@ HOSTILE = {
     "state at another depth": ({"state": "lifted"}, "possible"),
     "state beyond friction": ({"state": "stretched"}, "possible"),
     "state of a cube": ({"state": "cube"}, "of this element"),
-    "state None": ({"state": None}, "real numbers"),
 }
 
 
@@ -433,14 +314,6 @@ def test_hostile_steps_are_refused(change, words):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"mu_0": 0.0}, "mu_0"),
-        ({"mu_0": "high"}, "mu_0"),
-        ({"u_z_max": -1e-6}, "u_z_max"),
-        ({"u_z_max": np.nan}, "u_z_max"),
-        ({"n_springs": 4}, "n_springs"),
-        ({"n_springs": 64.0}, "n_springs"),
-        ({"indenter": 1.0}, "indenter"),
-        ({"material": mdr.Elastic}, "material"),
         ({"material": mdr.Prony(E_inf=0.0, arms=((1e6, 1e-3),), nu=0.5)}, "E_inf = 0"),
         ({"indenter": mdr.ConcavePunch(a=1e-3, R=0.1)}, "ring"),
         ({"indenter": mdr.Profile(lambda r: r**2, r_max=1e-4)}, "deeper"),

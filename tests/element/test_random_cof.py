@@ -1,10 +1,10 @@
 """Friction under a random depth: its bookkeeping against recorded motion, invariances, and what is refused."""
 
-import pickle
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from elements import every_material
 from numpy.testing import assert_allclose
 
 import mdr
@@ -15,15 +15,10 @@ PUNCH = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), ELASTIC, MU_0, STEADY)
 BALL = replace(PUNCH, indenter=mdr.Paraboloid(R=0.05))
 BAND = mdr.Spectrum.band(rms=2e-6, f_low=50.0, f_high=100.0)
 UNIT = MU_0 * ELASTIC.mindlin_ratio * BAND.rms_velocity
-MATERIALS = {
-    "elastic": ELASTIC,
-    "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3),
-    "arms": mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3), (3e6, 5e-3)), nu=0.5),
-}
 
 
 @pytest.mark.parametrize("rms", [2e-6, 15e-6], ids=["kept", "lost"])
-@pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+@every_material
 def test_a_history_is_a_recorded_motion(material, rms):
     """The third period of a record less its second, with the same springs; steps are extrapolated in one of them."""
     case, spectrum, v_0 = replace(BALL, material=material), mdr.Spectrum.band(rms, 50.0, 100.0), UNIT
@@ -60,23 +55,6 @@ def test_seeds_draw_anew_and_standard_errors_tell_by_how_much():
     assert_allclose(np.std(cofs), np.mean(told), rtol=3 / np.sqrt(2 * 40))
 
 
-@pytest.mark.parametrize("case", [PUNCH, BALL], ids=["punch", "ball"])
-def test_only_ratios_matter(case):
-    """Stiffer, larger and faster by any factor."""
-    found = mdr.random_cof(case, BAND, UNIT, n_realisations=8)
-    k, w = 50.0, 4.0  # of lengths, and of frequencies by a power of two, which keeps the steps
-    shape = mdr.FlatPunch(a=1e-2) if case is PUNCH else mdr.Paraboloid(R=1.0)
-    larger = mdr.SlidingContact(shape, mdr.Elastic(E=7e8, nu=0.5), MU_0, replace(STEADY, u_z0=k * DEPTH))
-    faster = mdr.Spectrum.band(k * 2e-6, w * 50.0, w * 100.0)
-    other = mdr.random_cof(larger, faster, k * w * UNIT, n_realisations=8)
-    assert_allclose(other.cof, found.cof, rtol=1e-9)
-
-
-def test_a_faster_pull_than_any_rate_has_full_friction():
-    found = mdr.random_cof(PUNCH, BAND, 30 * UNIT, n_realisations=8)
-    assert_allclose(found.cof, MU_0, rtol=1e-12)
-
-
 def test_a_contact_that_seldom_touches_has_numbers():
     """Some histories never touch: they have no friction, and all others full friction or less."""
     case = replace(BALL, oscillation=mdr.NormalOscillation(-7e-6, 8e-6, 600.0))
@@ -85,16 +63,3 @@ def test_a_contact_that_seldom_touches_has_numbers():
     assert 0 < never.sum() < 16
     assert np.all(found.realisations[~never] <= MU_0 + found.cof_error)  # a step less is extrapolated
     assert np.all(np.isfinite([found.cof, found.standard_error, found.cof_error]))
-
-
-def test_the_record_of_it():
-    found = mdr.random_cof(PUNCH, BAND, [UNIT, 2 * UNIT], n_realisations=8)
-    assert found == mdr.random_cof(PUNCH, BAND, [UNIT, 2 * UNIT], n_realisations=8) == pickle.loads(pickle.dumps(found))
-    assert str(found).startswith("RandomCof at 2 velocities")
-    assert "of 8 realisations" in str(found)
-    assert found.table().splitlines()[0] == "v_0 [m/s],cof [-],standard_error [-],cof_error [-]"
-    assert len(found.table().splitlines()) == 3
-    with pytest.raises(ValueError, match="read-only"):
-        found.cof[0] = 0
-    ax = found.plot()
-    assert found.plot(ax) is ax

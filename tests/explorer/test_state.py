@@ -17,14 +17,13 @@ from mdr.case.contact import KINDS
 from mdr.case.paths import GROUPS, SET, facts_at
 from mdr.explorer.controls import HIDDEN, controls_of
 from mdr.explorer.latest import Latest
-from mdr.explorer.lines import line_of, suits
+from mdr.explorer.lines import line_of
 from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import pictures_of
-from mdr.explorer.springs import DIRECTIONS, frames_of, map_of
+from mdr.explorer.springs import DIRECTIONS, map_of
 from mdr.explorer.state import State, group_values
 from mdr.files.examples import PARTS, example, example_file
 from mdr.plots import MODES
-from mdr.plots.side_view import SideView
 from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
 
@@ -148,19 +147,6 @@ def test_a_shake_follows_the_frequency_of_the_oscillation():
     assert after.case.shake.omega == 100.0
 
 
-@pytest.mark.parametrize(
-    ("path", "value", "words"),
-    [
-        ("oscillation.u_z0", -1.0, "never touches"),
-        ("v_0", 0.0, "v_0 must be positive"),
-        ("mu_0", 10**400, "mu_0 must be a finite number"),
-    ],
-)
-def test_what_records_refuse_is_refused_in_their_words(path, value, words):
-    with pytest.raises(ValueError, match=words):
-        State.of(CASES["body"]).changed(path, value)
-
-
 def test_a_case_that_is_refused_as_a_whole_is_no_state():
     """3 Pa for 3 MPa: each part is right, but the load is more than the sphere carries. The state before stays."""
     ball = mdr.SlidingContact(mdr.Sphere(5e-3), mdr.Elastic(3e6, 0.5), 0.5, mdr.LoadOscillation(1.0, 0.1, 300.0))
@@ -206,24 +192,6 @@ def test_the_run_lies_on_its_curve_and_the_line_on_the_points(state):
     drawn = np.isin(line["v_0"], picture.v_0)
     assert_array_equal(line["v_0"][drawn], picture.v_0)
     assert_allclose(line["cof"][drawn], picture.cof, rtol=1e-12)
-
-
-def test_an_axis_stays_while_what_is_shown_suits_it():
-    assert suits((0.0, 1.0), 0.3, 0.9)
-    assert not suits((0.0, 1.0), 0.3, 1.1)  # does not fit
-    assert not suits((0.0, 1.0), 0.3, 0.6)  # would be seen too small
-
-
-def test_springs_that_move_end_on_the_indenter():
-    run = mdr.slide(CASES["rigid"], 1e-4, n_springs=64, steps_per_period=64, record=1)
-    view = SideView(run)
-    frames = frames_of(run, view)
-    surface = np.interp(view.x, view.flanks, view.image) - frames["depth"][:, None]
-    touching = frames["mode"] != mdr.State.FREE
-    assert 0 < touching.mean() < 1
-    within_a_step = 2e-3 * np.abs(frames["top"]).max()  # springs leave and touch between steps: (2 pi/64)² du_z/u_z0/5
-    assert_allclose(frames["top"][touching], surface[touching], atol=within_a_step)
-    assert np.all(frames["top"][~touching] >= surface.min() - within_a_step)
 
 
 def test_only_the_latest_request_is_answered():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr.files import case_files, own_records
+from mdr.files import case_files
 from mdr.files.case_files import write_case
 from mdr.files.toml_text import CaseFileError
 from mdr.given.case_file import parse_case, read_case
@@ -68,18 +68,6 @@ def test_a_named_oscillation_is_held_to_its_name():
     assert fault == '[oscillation] motion "Normal" is unknown; did you mean NormalOscillation?'
 
 
-@dataclass(frozen=True)
-class Beat(mdr.PeriodicMotion):
-    """A motion of later, with the keys of an old one."""
-
-
-def test_a_motion_of_later_is_named_in_its_file(monkeypatch):
-    monkeypatch.setitem(own_records._OWN, "Beat", Beat)
-    beat = case(oscillation=Beat(300.0, 2e-5, (1e-6,)))
-    assert 'motion = "Beat"' in write_case(beat)
-    assert parse_case(write_case(beat)) == beat
-
-
 def test_what_a_file_cannot_carry_is_refused_with_the_reason():
     with pytest.raises(CaseFileError, match=r"\[indenter\] Profile: its shape is a Python function.*Paraboloid"):
         write_case(case(indenter=mdr.Profile(lambda r: r**2, name="bowl")))
@@ -121,45 +109,6 @@ def test_a_file_takes_quantities_in_quotes():
     motion = mdr.NormalOscillation(mdr.static_depth(mdr.Cone(np.deg2rad(2)), rubber, 0.05), 2e-6, omega)
     shake, pull = mdr.InPlaneMotion(omega, x_cos=(1e-6, 2e-6)), mdr.SpringPull(2e4, 0.1)
     assert parse_case(text) == mdr.SlidingContact(mdr.Cone(np.deg2rad(2)), rubber, 0.5, motion, pull, shake)
-
-
-def test_arms_take_quantities():
-    text = (
-        GOOD[: GOOD.index("[material]")]
-        + """[material]
-        model = "Prony"
-        E_inf = "3 MPa"
-        nu = 0.5
-        arms = [["2 MPa", "1 ms"], [1e6, 0.1]]
-    """
-        + GOOD[GOOD.index("[oscillation]") :]
-    )
-    assert parse_case(text).material == mdr.Prony(3e6, ((2e6, 1e-3), (1e6, 0.1)), 0.5)
-
-
-def test_another_quantity_is_refused_with_every_other_fault():
-    text = """
-        mu_0 = "1 N"
-        [indenter]
-        shape = "Cone"
-        theta_deg = "2 mm"
-        [material]
-        model = "Elastic"
-        E = "3 mm"
-        nu = 0.5
-        [oscillation]
-        frequency = "3 s"
-        u_z0 = "20 um"
-        du_z = "-2 um"
-    """
-    assert faults(text) == [
-        "[indenter] theta_deg wants deg (or °, rad), got '2 mm'",
-        "[material] E wants Pa (or kPa, MPa, GPa, N/mm2), got '3 mm'",
-        "[oscillation] frequency wants Hz (or mHz, kHz, MHz, rad/s), got '3 s'",
-        "[oscillation] du_z must be positive, got -2e-06 (amplitude of the depth in m; a depth that does "
-        "not oscillate is a ConstantDepth)",
-        "mu_0 wants a pure number, such as 0.1 or 10%, got '1 N'",
-    ]
 
 
 def test_every_fault_is_named_at_once():
@@ -224,8 +173,6 @@ SINGLE = {
     "key of another table": (R, f"{R}\nk_x = 1", "[indenter] k_x is no key of Paraboloid; it belongs to [pull]"),
     "mu_0 below a table": (R, f"{R}\nmu_0 = 1", "[indenter] mu_0 is no key of Paraboloid; write it at the top"),
     "missing shape": (SHAPE, "", f"[indenter] shape is missing; choose one of {SHAPES}"),
-    "shape in capitals": (SHAPE, 'Shape = "Cone"', "[indenter] shape is missing, and Shape unknown; choose one of"),
-    "unknown shape": (SHAPE, 'shape = "Kone"', '[indenter] shape "Kone" is unknown; did you mean Cone?'),
     "function": (SHAPE, 'shape = "Profile"', '[indenter] shape "Profile": its shape is a Python function, which'),
     "shape no string": (SHAPE, "shape = 3", "[indenter] shape must be a name in quotes, got 3; choose one of"),
     "array of tables": ("[indenter]", "[[indenter]]", "[indenter] must be one table of keys, got an array"),
@@ -323,7 +270,6 @@ ALONE = [
 REFUSED = [
     *zip(ALONE, ("theta_deg wants", "tan_delta must not", "frequency wants", "theta must lie"), strict=True),
     ({"slope": "theta_deg = 1.5\ntheta = 0.02"}, "theta_deg and theta say the same"),
-    ({"slope": "theta_deg = 100"}, "theta must lie between 0 and 1.5708"),
     ({"slope": ""}, "theta is missing; or give theta_deg [deg]"),
     (
         {"shape": "Paraboloid", "slope": "theta_deg = 2"},
@@ -337,7 +283,6 @@ REFUSED = [
     ({"loss": "tan_delta = 0.2", "motion": "u_z0 = 2e-5\ndu_z = 2e-6"}, "omega is missing; or give frequency"),
     ({"motion": "f = 50\nu_z0 = 2e-5\ndu_z = 2e-6"}, "f is no key of NormalOscillation; did you mean frequency"),
     ({"motion": "frequency = 50\nload = 1\nu_z0 = 1e-5\ndu_z = 2e-6"}, "load and u_z0 say the same"),
-    ({"motion": "frequency = 50\nload = -1\ndu_z = 2e-6"}, "load must be positive"),
 ]
 
 

@@ -112,21 +112,6 @@ def test_a_material_comes_back_from_its_moduli(write):
 # --- records ---
 
 
-@pytest.mark.parametrize(
-    ("head", "row", "arguments"),
-    [
-        ("t [ms], a [g]", "2, -3", {}),
-        ("time (s); acceleration (m/s^2); note", "0.002; -29.41995; a", {}),
-        ("t / s, a_z / mg", "0.002, -3000", {}),
-        ("t [s], Kanal 1", "0.002, -3", {"units": {"a_z": "g"}, "columns": {"a_z": "Kanal 1"}}),
-    ],
-)
-def test_an_acceleration_is_read_in_si(write, head, row, arguments):
-    record = mdr.read_record(write(f"{head}\n{row}\n"), **arguments)
-    assert list(record) == ["t", "a_z"]
-    assert_allclose([record["t"][0], record["a_z"][0]], [2e-3, -3 * 9.80665], rtol=1e-14)
-
-
 def test_a_motion_is_read_as_slide_record_takes_it(write):
     record = mdr.read_record(write("t [s], x [mm], displacement [um]\n0, 1, 2\n1, 2, 3\n"))
     assert {name: values.tolist() for name, values in record.items()} == {
@@ -156,24 +141,16 @@ FAULTS = [
     (friction, "v [m/s];mu\n1;0,1\n", "line 2: 0,1 is no number, write 0.1 with a decimal point (column cof)"),
     (friction, "v [m/s], mu\n0,5, 0,31\n", "line 2: has 4 cells, the header 2; if a comma is the decimal mark"),
     (friction, "v [um/s];mu\n1,234;0.1\n", "write 1234 without a thousands separator or, if the comma is the decimal"),
-    (friction, "v [um/s];mu\n1,234.5;0.1\n", "write 1234.5 without a thousands separator (column"),
     (friction, "v [um/s];mu\n1.234,5;0.1\n", "1.234,5 is no number, write 1234.5"),
     (friction, "v [m/s], mu\n0.5 mm/s, 0.1\n", "write 0.5 and the unit in the header (column v_0)"),
-    (friction, "v [m/s], mu\n1, NaN\n", "line 2: NaN is no number, leave the line out (column cof)"),
     (friction, "v [m/s], mu\n1, \n", "line 2: nothing is no number, leave the line out (column cof)"),
-    (friction, "v [m/s], mu\n1, 1_000\n", "1_000 is no number"),
     (friction, "v [m/s], mu\n1, high\n", "line 2: high is no number"),
-    (friction, "v [m/s], mu\n1\n", "line 2: nothing is no number"),
     (friction, 'v [m/s], mu\n1, "0.3\n2, 0.4\n3, high\n', "line 4: high is no number"),  # an open quote ends its line
     (friction, f"v [m/s], mu\n1, {'3' * 140_000}\n", "line 2: field larger than field limit"),
-    (friction, "v [m/s], mu, error\n1, 0.3, 0\n", "error must be positive"),
     # headers
     (friction, "", "holds no table; a header such as v_0 [mm/s], cof, and a row a measurement"),
     (friction, "1, 0.3\n2, 0.4\n", "line 1: numbers, where a header must be: v_0 [mm/s], cof"),
-    (friction, "v [m/s], mu\n", "holds no table"),
     (friction, "v [m/s], mu [N]\n1, 0.3\n", "cof is a pure number, got the unit 'N'"),
-    (friction, "v [m/s], m\x1bu\n1, 0.3\n", "the header names no cof: v [m/s], m u"),
-    (friction, f"v [{'x' * 1000}], mu\n1, 0.3\n", "is none of m/s"),
     (friction, "v [m/s], y\n1, 0.3\n", "the header names no cof: v [m/s], y; write v_0 [mm/s], cof"),
     (friction, "v, mu\n1, 0.3\n", "v_0 needs a unit in its header, one of m/s, cm/s, mm/s, um/s"),
     (friction, "v [km/h], mu\n1, 0.3\n", "the unit 'km/h' of v_0 is none of m/s"),
@@ -182,10 +159,8 @@ FAULTS = [
     (mdr.read_moduli, "f [Hz], E' [MPa]\n1, 3\n", "neither E'' nor tan delta"),
     (mdr.read_moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", "need Poisson's ratio, as E = 2 (1 + nu) G"),
     (mdr.read_record, "t [s], b [m/s²]\n0, 1\n", "the header names a time alone; write t [s], a [m/s²], or"),
-    (mdr.read_record, "t [s], a\n0, 1\n", "a_z needs a unit in its header, one of m/s2, mm/s2, g, mg"),
     # rows
     (mdr.read_moduli, "f [Hz], E' [MPa], E'' [MPa]\n1, 3, 1\n2, 3, -0.1\n", "line 3: loss must not be negative"),
-    (profile, "r [um], f [nm]\n0, 0\n1, 1\n2, 4\n", "r must have at least 6 numbers, got 3"),
     (profile, f"r [um], f [nm]\n{SCAN}\n10.0, 90\n", "lines 3 and 8 both have r = 1e-05 m; give one, or their mean"),
     (profile, f"r [um], f [nm]\n{SCAN[9:]}\n", "no point at the tip, r = 0 m; the nearest is at 1e-05 m"),
     (profile, "r [um], f [nm]\n" + SCAN.replace(", ", ", -"), "heights fall away from the tip; of a tip that was"),

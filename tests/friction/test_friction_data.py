@@ -1,7 +1,6 @@
 """Measured friction: read with its units, or refused with file and line."""
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
 
 import mdr
@@ -19,13 +18,6 @@ def test_columns_in_any_order_with_units_and_comments(tmp_path):
     assert_allclose(data.v_0, [0.5e-3, 2e-3], rtol=1e-15)
     assert_allclose(data.cof, [0.31, 0.35])
     assert_allclose(data.error, [0.01, 0.02])
-
-
-@pytest.mark.parametrize(("head", "scale"), [("v [m/s]", 1), ("Speed (µm/s)", 1e-6), ("velocity [cm/s]", 1e-2)])
-def test_units_of_velocity(tmp_path, head, scale):
-    data = mdr.read_friction_data(table(tmp_path, f"{head}, mu\n2, 0.3\n4, 0.4\n"))
-    assert_allclose(data.v_0, np.array([2, 4]) * scale, rtol=1e-15)
-    assert data.error is None
 
 
 def test_what_a_curve_writes_is_read(tmp_path):

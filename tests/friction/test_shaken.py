@@ -64,15 +64,6 @@ def test_measured_velocities_are_those_of_full_slip(case, way):
     assert found.low <= full <= found.high
 
 
-def test_a_shake_alone_knows_neither_shape_nor_depth_nor_material():
-    for shape in SHAPES:
-        for material in (RUBBER, mdr.KelvinVoigt(1e5, 0.3, 1e-2)):
-            case = contact(shape, chi=0.8, material=material)
-            for one in (case, body(case)):
-                assert mdr.critical_velocity(one) == pytest.approx(OMEGA * case.shake.du_x, rel=1e-13)
-                assert mdr.full_slip_critical_velocity(one, -1) == pytest.approx(OMEGA * case.shake.du_x, rel=1e-8)
-
-
 def test_contact_that_is_lost_may_drive_at_full_friction():
     """The tool runs on while it presses and comes back in flight: springs slip forward at rest, v_c is below zero."""
     case = contact("flat", alpha=3.0, chi=20.0, phi=-np.pi / 2)
@@ -93,12 +84,6 @@ def test_the_formula_of_a_kept_punch_knows_the_sign_of_the_phase(way):
     assert v_c != pytest.approx(mdr.critical_velocity(other, way), rel=1e-3)
 
 
-@pytest.mark.parametrize("ask", [mdr.critical_velocity, mdr.full_slip_critical_velocity])
-def test_without_a_shake_both_ways_are_one(ask):
-    still = replace(body(contact(alpha=0.5)), shake=None)
-    assert ask(still, -1) == ask(still)
-
-
 # --- curves ---
 
 
@@ -117,16 +102,6 @@ def test_the_curve_of_both_ways_is_that_of_single_runs(pull):
     assert (curve.v_c, curve.v_c_back) == (mdr.critical_velocity(case), mdr.critical_velocity(case, -1))
     quick = friction_without_bound(case, v_0, 192, 512)
     assert_allclose(quick, curve.cof, rtol=0, atol=5e-5 * MU_0)
-
-
-def test_a_curve_of_both_ways_is_drawn_whole():
-    curve = mdr.cof_curve(contact(alpha=0.5, chi=1.5), np.linspace(-0.03, 0.03, 7))
-    ax = curve.plot()
-    low, high = ax.get_ylim()
-    assert low < -1
-    assert high > 1
-    assert ax.get_xlim()[0] < -0.03 / curve.v_c
-    assert "other way" in "".join(text.get_text() for text in ax.texts)
 
 
 def test_a_curve_of_both_ways_knows_what_the_contact_holds_at_rest():
@@ -156,15 +131,6 @@ def test_a_shake_alone_leaves_the_band_that_its_amplitude_does_not_take(shape):
     gone = contact(shape, chi=1.01)
     assert mdr.holding_band(gone).is_one_number
     assert mdr.blocked_cof(gone) == pytest.approx(0, abs=1e-9)
-
-
-def test_the_band_without_a_shake_is_that_of_static_friction():
-    still = replace(contact(alpha=0.4), shake=None)
-    band = mdr.holding_band(still)
-    assert (band.low, band.high) == (-mdr.static_cof(still), mdr.static_cof(still))
-    assert band.contains(0.0)
-    assert not band.contains(1.1 * band.high)
-    assert not band.is_one_number
 
 
 @pytest.mark.parametrize("pull", ["rigid", "body"])
@@ -287,36 +253,6 @@ def test_friction_at_rest_is_the_limit_of_slow_pulls(case):
     assert abs(one.cof[0] - other.cof[0]) <= one.cof_error[0] + other.cof_error[0]
     slow = mdr.slide(case, 1e-5 * case.pace)
     assert 0 <= slow.cof - one.cof[0] + slow.cof_error < 3e-4 * MU_0
-
-
-def test_a_band_that_is_one_number_contains_it():
-    drive = contact(alpha=0.75, chi=5.0, phi=np.pi / 2)
-    band = mdr.holding_band(drive)
-    assert band.low <= band.high
-    assert band.contains(mdr.blocked_cof(drive))
-    assert mdr.holding_band(contact(chi=3.0)).contains(0.0)
-
-
-def test_a_shake_of_no_amplitude_is_pulled_both_ways_too():
-    case = contact(alpha=0.4, chi=0.0)
-    for one in (case, body(case)):
-        curve = mdr.cof_curve(one, [-1e-3, 0.0, 1e-3])
-        assert curve.cof[0] == pytest.approx(-curve.cof[2], rel=1e-9)
-        assert curve.cof[1] == pytest.approx(mdr.static_cof(replace(one, shake=None)), rel=1e-9)
-    assert mdr.slide(case, -1e-3).cof == pytest.approx(curve_at(case, -1e-3), abs=1e-5 * MU_0)
-
-
-def curve_at(case, v_0):
-    return float(mdr.cof_curve(case, [v_0]).cof[0])
-
-
-def test_contact_lost_on_an_elastic_face_is_exact():
-    """The greatest slip rate stands at the instant of touch, arccos(1/3) before the deepest point."""
-    ball, depth = SHAPES["paraboloid"][0], mdr.NormalOscillation(-5e-6, 15e-6, OMEGA)
-    case = mdr.SlidingContact(ball, RUBBER, MU_0, depth, shake=mdr.InPlaneOscillation(OMEGA, 1e-5, 2.0))
-    touch = -math.acos(1 / 3)
-    rate = MU_0 * RUBBER.mindlin_ratio * OMEGA * 15e-6 * -math.sin(touch) - OMEGA * 1e-5 * math.sin(touch + 2.0)
-    assert mdr.full_slip_critical_velocity(case, -1) == pytest.approx(rate, rel=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -87,16 +87,6 @@ def test_pressure_of_an_indentation_is_the_shapes(shape):
     assert found.contact_radius == pytest.approx(a, rel=1e-12)
 
 
-def test_surface_outside_hertz():
-    R, a = 5e-3, math.sqrt(5e-3 * DEPTH)
-    r = a * np.linspace(1.001, 5, 30)
-    hertz = a**2 / (np.pi * R) * ((2 - (r / a) ** 2) * np.arcsin(a / r) + np.sqrt((r / a) ** 2 - 1))
-    run = indent(mdr.Paraboloid(R=R), BODY, [0, 1], [0, DEPTH], record=True)
-    pulled = partial_slip(mdr.Paraboloid(R=R), BODY, MU_0, DEPTH, 0.0)
-    assert_allclose(surface_fields(run, r).u_z, hertz, rtol=1e-6)  # 3000 and 2000 knots, second order
-    assert_allclose(surface_fields(pulled, r).u_z, hertz, rtol=1e-6)
-
-
 @pytest.mark.parametrize("body", [SOFT, KELVIN], ids=["standard", "Kelvin"])
 @pytest.mark.parametrize("shape", ["cone", "paraboloid"])
 def test_a_body_with_memory_stays_within_contact_mechanics(body, shape):
@@ -167,18 +157,6 @@ def test_a_run_from_rest_draws_cattaneos_traction(pulled_run):
     assert_allclose(found.u_z, d - r**2 / (2 * R), atol=1e-4 * d)
 
 
-def test_the_surface_of_a_viscoelastic_run_is_the_indenter_where_it_presses():
-    body = mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.5)
-    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), body, 0.4, mdr.NormalOscillation(2e-5, 4e-6, 300.0))
-    run = mdr.slide(case, 0.4 * case.unit_velocity, n_springs=512, steps_per_period=256, n_periods=30, record=1)
-    for i in (40, 128, 250):
-        a = surface_fields(run, i=i).contact_radius
-        r = np.linspace(0, 0.95, 20) * a
-        found = surface_fields(run, r, i=i)
-        assert_allclose(found.u_z, run.u_z[i] - r**2 / 1e-2, rtol=0, atol=2e-3 * run.u_z[i])  # by 512 springs
-        assert np.all(np.abs(found.traction) <= 0.4 * found.pressure + 2e-2 * found.pressure.max())
-
-
 def test_an_indenter_that_does_not_touch_presses_nowhere():
     """What is left then is the surface, which stands still where it was and relaxes where it has memory."""
     t, u_z = [0.0, 1e-3, 2e-3, 1.0], [0.0, DEPTH, -DEPTH, -DEPTH]
@@ -188,17 +166,6 @@ def test_an_indenter_that_does_not_touch_presses_nowhere():
     assert np.all(left.pressure == 0)
     assert 0 < left.u_z[0] < pressed.u_z[0]
     assert abs(late.u_z[0]) < 1e-3 * left.u_z[0]
-
-
-def test_a_contact_of_one_or_two_springs_carries_its_force():
-    case = mdr.SlidingContact(mdr.Cone(0.02), BODY, MU_0, mdr.NormalOscillation(0.0, DEPTH, 100.0))
-    run = mdr.slide(case, 0.3 * case.unit_velocity, n_springs=16, steps_per_period=8192, n_periods=1, record=1)
-    n_pressed = np.count_nonzero(run.f_z, axis=1)
-    for n, error in ((1, 1e-4), (2, 0.2), (3, 1e-4)):  # two springs make a line, and tell their edge to a cell
-        i = int(np.flatnonzero(n_pressed == n)[0])
-        whole = surface_fields(run, i=i)
-        r, weight = within(whole.contact_radius)
-        assert_allclose(weight @ surface_fields(run, r=r, i=i).pressure, whole.F_z, rtol=error)  # kinks
 
 
 def test_what_is_refused(pulled_run):

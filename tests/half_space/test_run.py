@@ -1,6 +1,5 @@
 """mdr.half_space.slide and curve: friction with its errors against closed forms, and what they refuse and say."""
 
-import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -44,14 +43,6 @@ def test_a_shake_along_the_pull_has_the_friction_of_the_springs(v):
     assert abs(found.cof_y) < 1e-9 * case.mu_0
 
 
-def test_slip_across_lowers_friction_a_little_under_a_shake_along_the_pull():
-    case = without_coupling(ALONG, nu=0.5)
-    found = slide(case, 0.6 * UNIT, cells=21, steps_per_period=50)
-    off = mdr.cof_curve(case, [0.6 * UNIT]).cof[0] - found.cof
-    assert abs(off) < 1e-3 * case.mu_0 + found.cof_error  # 7.7e-4 on 61 x 61 cells in 200 steps
-    assert found.settled
-
-
 @pytest.mark.parametrize(
     ("name", "v"), [("normal", 0.05), ("along", 0.6), ("cone, along", 0.6), ("punch", 0.05), ("Kelvin, both", 0.2)]
 )
@@ -90,11 +81,6 @@ def test_a_fast_pull_slips_all_over_without_a_shake_across():
     assert_allclose(found.cof, 0.3, rtol=1e-9)
 
 
-def test_both_starts_end_alike(found):
-    rest = slide(ACROSS, 0.3 * UNIT, start="rest", **FEW)
-    assert_allclose(found.cof, rest.cof, atol=found.cycle_error + rest.cycle_error)
-
-
 @pytest.mark.parametrize(
     ("case", "coupled"), [(BALL, True), (ACROSS, True), (ACROSS, False)], ids=["normal", "across", "uncoupled"]
 )
@@ -128,30 +114,6 @@ def test_the_fields_of_the_last_period_have_its_forces(found):
     assert_array_equal(found.stick, (found.pressure > 0) & (np.hypot(found.q_x, found.q_y) < limit * (1 - 1e-5)))
     assert 0 < found.stick_share < 1
     assert_allclose(found.t[-1], ACROSS.period)
-
-
-def test_the_error_is_the_sum_of_its_parts(found):
-    assert_allclose(found.cof_error, found.grid_error + found.step_error + found.cycle_error)
-    assert 0 < found.cof_error < 0.3
-
-
-def test_a_run_prints_compares_and_is_kept(found, tmp_path):
-    for word in ("COF across", "grid", "step", "cycle", "9 x 9 cells"):
-        assert word in str(found)
-    assert pickle.loads(pickle.dumps(found)) == found
-    found.to_csv(tmp_path / "run.csv")
-    table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
-    assert table.dtype.names[1:] == ("F_x_N", "F_y_N", "F_z_N")
-    assert_allclose(table["F_x_N"].mean(), found.mean_F_x)
-
-
-def test_a_run_draws_itself(found):
-    assert len(found.plot().axes) == 5  # four instants, and the colours
-    one = found.plot(0.5)
-    assert len(one.axes) == 2
-    assert "Arrows: traction" in one.get_suptitle()
-    with pytest.raises(ValueError, match="instant must lie between 0 and 1"):
-        found.plot(1.5)
 
 
 def test_a_curve_is_made_of_runs(found, tmp_path):

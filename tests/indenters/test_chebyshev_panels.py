@@ -14,7 +14,6 @@ from scipy.special import struve
 from mdr.indenters import Paraboloid, Profile
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapped import image_of
-from mdr.indenters.mapping.chebyshev_panels import cuts
 
 B, R, T = 1e-3, 5e-3, math.tan(0.05)
 MAP = 1e-9  # the accuracy promised for mapped profiles
@@ -127,39 +126,6 @@ def test_nothing_is_kept_of_a_shape_that_can_be_changed():
     assert_allclose(bowl.contact_radius(2e-5), 2 * before, rtol=MAP)
 
 
-def test_threads_may_ask_one_shape():
-    def slow(r):
-        time.sleep(1e-4)  # another one begins
-        return r * r / 1e-2
-
-    shape, d = Profile(slow, r_max=4e-3), np.linspace(1e-6, 1e-4, 12)
-    with ThreadPoolExecutor(6) as pool:
-        a = list(pool.map(shape.contact_radius, d))
-    assert_allclose(a, np.sqrt(d * R), rtol=MAP)
-
-
-@pytest.mark.parametrize("g", [lambda x: 200 * x**2, lambda x: 1e6 * x**4])
-def test_depths_whose_square_is_no_number(g):
-    class Bowl(Indenter):
-        def profile_1d(self, x):
-            return g(np.abs(x))
-
-    d = np.array([1e-300, 1e-200, 1e-100, 1.0])
-    assert_allclose(g(Bowl().contact_radius(d)), d, rtol=MAP)
-
-
-def test_the_deepest_contact_is_the_whole_face():
-    shape = Profile(lambda r: r**2 / 1e-2, r_max=B)
-    assert_allclose(shape.contact_radius(shape.profile_1d(B) * np.array([1 - 1e-15, 1, 1 + 1e-15])), B, rtol=MAP)
-
-
-def test_panels_end_where_they_should():
-    ends = cuts((0.0, 3.0, 4.0, 9.0))
-    assert np.array_equal(ends[ends > 0.9], [1, 2, 3, 4, 5, 6, 8, 9])
-    assert ends[0] == 5e-324
-    assert cuts((0.0, np.inf))[-1] == np.finfo(float).max
-
-
 @pytest.mark.parametrize("place", [5e-4, 4.87e-4, 3.1e-4])
 @pytest.mark.parametrize("step", [1e-4, 1e-5, 3e-8])
 def test_a_step_that_is_not_named_is_refused(place, step):
@@ -170,3 +136,14 @@ def test_a_step_that_is_not_named_is_refused(place, step):
     steep = Profile(lambda r: 0.01 * r + np.maximum(r - place, 0), kinks=(place,))
     root = Profile(lambda r: 1e-3 * np.sqrt(np.maximum(r - place, 0)), kinks=(place,))
     assert steep.contact_radius(20e-6) > place < root.contact_radius(1e-6)
+
+
+def test_threads_may_ask_one_shape():
+    def slow(r):
+        time.sleep(1e-4)  # another one begins
+        return r * r / 1e-2
+
+    shape, d = Profile(slow, r_max=4e-3), np.linspace(1e-6, 1e-4, 12)
+    with ThreadPoolExecutor(6) as pool:
+        a = list(pool.map(shape.contact_radius, d))
+    assert_allclose(a, np.sqrt(d * R), rtol=MAP)

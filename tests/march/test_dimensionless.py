@@ -12,7 +12,7 @@ from random_records import case_in_units
 
 import mdr
 from mdr.march.dynamics import loop
-from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.body import Y
 from mdr.march.dynamics.dimensionless import ScaledContact, fast_ratio
 from mdr.march.dynamics.stepper import Stepper
 from mdr.spring.times import tools_for
@@ -69,17 +69,6 @@ def test_scaled_motion_and_springs():
         rtol=1e-14,
     )  # Eq. (1)
     assert scaled.drive.steps == STEPS
-
-
-def test_body_groups_are_those_of_the_oscillator():
-    case = contact("paraboloid", 3.0, 0.5, 0.7, 1.6, 0.15)
-    scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 32), STEPS, lump=False)
-    omega, unit = case.oscillation.omega, scaled.units.stiffness_x
-    assert_allclose(
-        [scaled.body.M, scaled.body.C, scaled.body.K],
-        np.array([case.pull.m * omega**2, case.pull.c_x * omega, case.pull.k_x]) / unit,
-    )
-    assert_allclose(math.sqrt(scaled.body.K / scaled.body.M), 1.6, rtol=1e-13)
 
 
 @pytest.mark.parametrize("chi", [None, 1.2])
@@ -179,24 +168,6 @@ def test_the_resonant_harmonic_is_left_out(multiple):
     near = scaled_of("paraboloid", 3.0, 0.0, 0.7, multiple * (1 + 1e-6), 0.0)
     y = np.fft.irfft(np.where(np.arange(area.size) == multiple, 0, near.full_slip._motion[0][0]), STEPS)
     assert_allclose(start[Y], y[0], rtol=1e-4)
-
-
-def test_a_little_damping_brings_the_harmonic_back():
-    """Under F_1 sin(phase + psi) y is F_1 cos(phase + psi)/C, far more than all other harmonics make."""
-    scaled = scaled_of("paraboloid", 3.0, 0.0, 0.7, 1.0, 1e-6)
-    first = 2 * np.fft.rfft(scaled.normal.area)[1] / (scaled.drive.h * STEPS)  # of the mean force of each step
-    first *= np.exp(-0.5j * scaled.drive.h)  # which is that of its middle
-    expected = -first / (1j * scaled.body.C)
-    # beside it, the mean force over K
-    assert_allclose(scaled.full_slip.state()[[Y, RATE]], [expected.real, (1j * expected).real], rtol=1e-3, atol=10)
-
-
-def test_full_slip_repeats_itself_in_an_odd_number_of_steps():
-    scaled = scaled_of("paraboloid", 4.0, 0.5, **BODIES["damped"], steps=63)
-    stepper = Stepper(scaled, 1e3)
-    start = stepper.full_slip()
-    after = stepper.period(start.copy())
-    assert_allclose(after.body, start.body, rtol=0, atol=1e-12 * np.abs(start.body).max())
 
 
 def test_rest_is_rest():

@@ -5,13 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import reference
 from conftest import contact
-from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
 
 import mdr
 from mdr.march.periodic import anderson, fixed_point
-from mdr.march.periodic.steady import MOST_ACCURATE, Resolution, steady
+from mdr.march.periodic.steady import Resolution, steady
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -101,16 +100,6 @@ def test_a_slow_beat_that_stick_trims_is_not_waited_for(angle, seed):
     assert np.linalg.norm(step(found.x) - found.x) < 1e-8
 
 
-def test_a_map_with_a_corner():
-    """Friction clips: the fixed point lies on the clipped side."""
-
-    def step(x):
-        return np.clip(linear(turning(0.98, 0.7))(x), -np.inf, POINT + 0.3)
-
-    found = find(step, POINT + 2.0)
-    assert_allclose(found.x, POINT, atol=1e-8)
-
-
 def test_no_fixed_point_is_no_answer():
     assert find(lambda x: x + 1.0, np.zeros(6)) is None
 
@@ -166,38 +155,6 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
     failed = steady(case, v_0, knobs)
     assert failed.cof == untouched.cof
     assert failed.n_periods == untouched.n_periods
-
-
-def test_a_start_from_rest_goes_its_way_before_the_periodic_state_is_looked_for():
-    case, v_0 = body(*BODIES["punch, elastic"])
-    run = steady(case, v_0, Resolution(32, 128, "rest", True))
-    assert run.n_periods >= max(run.on_the_way, 32)
-    full = steady(case, v_0, Resolution(32, 128, "full_slip", True))
-    assert abs(run.cof - full.cof) <= run.settling.spread + full.settling.spread
-
-
-def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
-    """Lightly damped bodies, all digits, the median; waiting is stopped as soon as it has the same spread."""
-    rng = np.random.default_rng(4)
-    shares = []
-    for _ in range(12):
-        case, v_0 = body(
-            rng.choice(["flat", "cone", "paraboloid", "r4"]),
-            rng.uniform(1, 8),
-            rng.choice([0.0, 0.3, 1.0]),
-            10 ** rng.uniform(-0.7, 0.5),
-            10 ** rng.uniform(-0.4, 0.6),
-            rng.choice([0.0, 0.001, 0.005]),
-            rng.uniform(0.1, 0.9),
-        )
-        knobs = Resolution(n_springs=64, steps=256, start="full_slip", lump=True, accuracy=MOST_ACCURATE)
-        solved = steady(case, v_0, knobs)
-        with monkeypatch.context() as patch:
-            without_search(patch)
-            patch.setattr("mdr.march.periodic.waiting.TOLERANCE", max(solved.settling.spread, 1e-13))
-            awaited = steady(case, v_0, knobs)
-        shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
-    assert np.median(shares) <= 0.2
 
 
 @pytest.mark.filterwarnings("error")

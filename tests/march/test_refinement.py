@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from conftest import contact, unit_of_velocity
+from conftest import SHAPES, contact, unit_of_velocity
 
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
@@ -22,8 +22,12 @@ def exact(case, v_0):
 
 FEW, COARSE = {"n_springs": 32}, {"steps_per_period": 32}
 ROUND = ("paraboloid", 10.0), ("paraboloid", 1.43), ("flat", 3.0)
-#: shape, depth ratio, T, velocities over Eq. (1), knobs: any accuracy, materials faster than a step, the coarsest runs
+#: shape, depth ratio, T, velocities over Eq. (1), knobs: every shape at small amplitudes, kept and lost; any accuracy,
+#: materials faster than a step, the coarsest runs
 RIGID = [
+    *((shape, 1 / alpha, 0.0, (0.05, 0.37, 0.81, 0.97), {}) for shape in SHAPES for alpha in (0.03, 0.4, 0.9, 1.7)),
+    *((shape, 1 / alpha, T, v_hats, {}) for shape in SHAPES for T in (0.3, 1.0, 3.0)
+      for alpha, v_hats in ((0.03, (0.37,)), (0.9, (0.05, 0.81)), (1.7, (0.37, 0.81)))),
     *((shape, 3.0, T, (0.3, 0.7), {"accuracy": 10.0**power})
       for shape, T in (("cone", 0.0), ("flat", 0.3), ("paraboloid", 1.0)) for power in range(-7, -2)),
     *((*shape, T, (0.1, 0.25, 0.4, 0.6, 0.8, 0.9), {}) for shape in ROUND for T in (1e-3, 3e-3, 1e-2, 0.1)),
@@ -61,6 +65,14 @@ def test_what_is_given_is_kept_and_its_error_within_its_bound(case):
         own = steady(case, v_0, Resolution(n_springs, steps, "full_slip", lump=True))
         # both searches end within TOLERANCE of the periodic state
         assert run.cof == pytest.approx(case.mu_0 * own.cof, abs=2 * TOLERANCE * case.mu_0)
+
+
+def test_the_bound_holds_where_two_runs_agree_by_chance():
+    case = contact("flat", 1 / 1.2, 3.0, 0.7, 1.6, 0.06125)
+    v_0 = 0.8 * mdr.full_slip_critical_velocity(case)
+    run, fine = mdr.slide(case, v_0), mdr.slide(case, v_0, accuracy=1e-8)
+    assert abs(run.cof - fine.cof) <= run.cof_error + fine.cof_error
+    assert fine.cof_error < 5e-7 * case.mu_0
 
 
 def test_a_refinement_that_is_too_dear_ends_and_its_error_is_within_its_bound(monkeypatch):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from conftest import SHAPES
 from numpy.testing import assert_allclose
-from tables import turning
 
 import mdr
 from mdr.materials.operator import Rheology
@@ -35,33 +34,6 @@ def test_response_is_the_dynamic_modulus(arms):
 # --- runs ---
 
 
-@pytest.mark.parametrize(
-    ("T", "arms", "shape", "depth_ratio", "v"),
-    [
-        (0.0, ARMS["one"], "paraboloid", 3.0, 0.4),
-        (0.0, ARMS["two"], "cone", 0.6, 0.3),
-        (0.0, ARMS["one"], "flat", 3.0, 0.7),
-        (0.5, ARMS["two"], "paraboloid", 3.0, 0.5),
-        (0.5, ARMS["one"], "r4", -0.3, 0.2),
-    ],
-)
-def test_cof_is_that_of_the_twin(T, arms, shape, depth_ratio, v):
-    contact = case(T, *arms, shape, depth_ratio)
-    row = turning.row_of("", shape, contact, v * contact.unit_velocity, steps=4096)
-    assert row.settled
-    assert row.bound < 1e-5
-    assert row.doubt < 1e-5
-    assert row.error <= row.bound
-    assert row.cof < 0.99
-
-
-def test_one_arm_is_the_standard_solid():
-    prony, solid = mdr.Prony(3e6, [(6e6, 2e-3)], 0.4), mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.4)
-    motion = mdr.NormalOscillation(6e-6, 2e-6, OMEGA)
-    runs = [mdr.slide(mdr.SlidingContact(SHAPES["cone"][0], m, 0.4, motion), 3e-4) for m in (prony, solid)]
-    assert runs[0] == runs[1]
-
-
 @pytest.mark.parametrize("v", [0.3, 0.8])
 def test_a_fast_arm_is_a_dashpot(v):
     T = 0.4
@@ -69,15 +41,6 @@ def test_a_fast_arm_is_a_dashpot(v):
     # what a dashpot is to an arm of time theta: its force lags by theta
     one, two = (mdr.slide(each, v * each.unit_velocity).cof for each in (fast, kelvin))
     assert_allclose(one, two, rtol=1e-4)
-
-
-@pytest.mark.parametrize("arms", [ARMS["one"], ARMS["two"]], ids=["one", "two"])
-@pytest.mark.parametrize("T", [0.0, 0.5])
-def test_energy_is_kept(T, arms):
-    contact = case(T, *arms, pull=mdr.SpringPull(2e3, 0.02, 0.5))
-    for steps in (64, 256):  # the loss in the damper is a sum over nodes, of second order
-        run = mdr.slide(contact, 0.4 * contact.unit_velocity, steps_per_period=steps, n_springs=64)
-        assert abs(run.energy_balance.relative) < 3e-5 * (64 / steps) ** 2
 
 
 @pytest.mark.parametrize(("v", "least"), [(3.0, 1.0), (0.3, 0.5)])
@@ -160,15 +123,6 @@ def test_arms_over_thirty_decades_are_those_that_a_period_sees_beside_a_spring()
     assert_allclose(
         runs[0].cof, runs[1].cof, rtol=0, atol=4e-6 * 0.4
     )  # arms of 1e-8/omega and 30 E are dashpots of 3e-7
-
-
-def test_over_a_period_springs_bear_what_the_long_time_ones_alone_would():
-    """Slow arms have relaxed about their mean."""
-    one = slow_contact("lost", 1e28)
-    run = mdr.slide(one, 0.4 * one.unit_velocity, n_springs=32, steps_per_period=512, n_periods=2, record=1)
-    for f, x, modulus in ((run.f_z, run.s, one.material.E_star), (run.f_x, run.e, one.material.G_star)):
-        bear, alone = f.mean(axis=0) / run.width, modulus * x.mean(axis=0)
-        assert_allclose(bear, alone, rtol=0, atol=1e-3 * np.abs(alone).max())  # 512 values a period, of kinks
 
 
 def test_slip_and_stick_are_told_apart_where_an_extension_dwarfs_a_step():

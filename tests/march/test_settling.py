@@ -42,14 +42,6 @@ def test_a_constant_is_settled_at_once():
     assert (found.mean, found.spread, found.settled, found.kind) == (LIMIT, 0.0, True, "periodic")
 
 
-def test_rounding_is_settled():
-    values = LIMIT + 1e-15 * np.random.default_rng(0).standard_normal(100)
-    found = assess(values, TOLERANCE)
-    assert found.settled
-    assert found.kind == "periodic"
-    assert found.spread < 1e-14
-
-
 @pytest.mark.parametrize("n", range(1, MIN_PERIODS))
 def test_a_short_run_cannot_tell(n):
     found = assess(np.full(n, LIMIT), TOLERANCE)
@@ -86,18 +78,6 @@ def test_spread_bounds_a_power_law(p, n):
         assert found.spread < 15 * abs(found.mean - LIMIT)
 
 
-@pytest.mark.parametrize("share", [0.02, 0.1, 0.3])
-def test_spread_bounds_an_exponential_that_lasted_for_some_time_constants(share):
-    n = 1024
-    found = assess(transient(lambda P: np.exp(-P / (share * n)))(n), TOLERANCE)
-    assert abs(found.mean - LIMIT) <= found.spread
-
-
-def test_mean_is_over_the_second_half():
-    values = np.r_[np.full(25, 5.0), np.full(25, LIMIT)]
-    assert assess(values, TOLERANCE).mean == LIMIT
-
-
 @pytest.mark.parametrize("n", [10, 100, 1000])
 def test_smooth_mean_keeps_little_of_a_beat(n):
     """N beats in a window leave less than 0.4 N^-3 of themselves, at any phase; a constant keeps its last digit."""
@@ -119,14 +99,7 @@ def test_tolerance_decides(tolerance):
 # --- what keeps changing ---
 
 
-def test_a_period_of_two_is_named():
-    found = assess(transient(lambda P: (-1.0) ** P)(64), TOLERANCE)
-    assert found.settled
-    assert found.kind == "period-2"
-    assert_allclose(found.mean, LIMIT, rtol=1e-15)
-
-
-@pytest.mark.parametrize("period", [3, 4, 7, 8])
+@pytest.mark.parametrize("period", [2, 3, 4, 7, 8])
 def test_longer_periods_are_named(period):
     values = transient(lambda P: np.sin(2 * np.pi * P / period))(168 * 8)  # whole periods in every window
     found = assess(values, TOLERANCE)
@@ -154,21 +127,6 @@ def test_a_beat_that_does_not_repeat_is_quasi_periodic():
     assert found.settled
     assert found.kind == "quasi-periodic"
     assert abs(found.mean - LIMIT) <= found.spread < 1e-7  # a plain mean would keep up to 1.1 SIZE/256
-
-
-def slow_beats(n_beats=200):
-    """Beats over a hundred periods and more, as a lightly damped body has them."""
-    rng = np.random.default_rng(7)
-    for rate, phase in zip(rng.uniform(1e-3, 1e-2, n_beats), rng.uniform(0, 2 * np.pi, n_beats), strict=True):
-        yield transient(lambda P, rate=rate, phase=phase: np.cos(2 * np.pi * rate * P + phase))(200)
-
-
-@pytest.mark.xfail(reason="a beat much slower than the run looks like a limit at its turning points", strict=True)
-def test_a_beat_is_not_called_settled_because_windows_agree_by_chance():
-    for values in slow_beats():
-        for n in (n for n in LENGTHS if n <= values.size):
-            found = assess(values[:n], TOLERANCE)
-            assert not found.settled or abs(found.mean - LIMIT) < 10 * TOLERANCE
 
 
 STIFF_ARM = mdr.SlidingContact(

@@ -7,18 +7,13 @@ import numpy as np
 import pytest
 from conftest import SHAPES
 from numpy.testing import assert_allclose
-from tables import turning
 
 import mdr
-from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.periodic.steady import Resolution
-from mdr.march.result.slide import runs
 
 OMEGA, MU_0, NU, DEPTH = 300.0, 0.4, 0.4, 20e-6
 KAPPA = (2 - NU) / (2 * (1 - NU))
 REACH = MU_0 * KAPPA * DEPTH  # deflection at which the deepest spring slips
 KNOBS = {"n_springs": 64, "steps_per_period": 256}
-QUICK = {"steps": 4096}  # of the twin
 
 
 def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, at="tool", **others):
@@ -34,39 +29,6 @@ def contact(shape="paraboloid", alpha=0.0, T=0.0, chi=1.0, phi=0.7, body=None, a
         pull = mdr.SpringPull(k_x, m, 2 * zeta * math.sqrt(k_x * m))
     shake = mdr.InPlaneOscillation(OMEGA, chi * REACH, phi, at=at)
     return replace(mdr.SlidingContact(indenter, material, MU_0, motion, pull, shake), **others)
-
-
-@pytest.mark.parametrize(
-    ("shape", "alpha", "T", "chi", "phi", "v"),
-    [
-        ("flat", 0.0, 0.0, 0.3, 0.7, 0.4),
-        ("cone", 0.0, 0.0, 3.0, 0.7, -0.1),
-        ("paraboloid", 0.5, 0.0, 1.0, np.pi / 2, 0.3),
-        ("r4", 0.5, 0.3, 3.0, np.pi, -0.5),
-        ("cone", 1.4, 0.0, 1.0, np.pi / 2, -0.3),
-        ("flat", 0.6, 1.0, 5.0, 0.7, 0.6),
-        ("paraboloid", 1.3, 0.3, 10.0, 0.0, -0.2),
-    ],
-)
-def test_a_rigid_pull_is_within_its_error_of_the_twin(shape, alpha, T, chi, phi, v):
-    case = contact(shape, alpha, T, chi, phi)
-    row = turning.row_of("", shape, case, v * max(mdr.critical_velocity(case, way) for way in (1, -1)), **QUICK)
-    assert row.settled
-    assert row.bound <= 1e-5
-    assert row.doubt < 1e-5
-    assert row.error <= row.bound
-
-
-@pytest.mark.parametrize(
-    ("shape", "alpha", "T", "chi", "at"),
-    [("flat", 0.4, 0.0, 1.0, "tool"), ("paraboloid", 0.0, 0.3, 2.0, "pull"), ("cone", 0.6, 0.0, 1.0, "pull")],
-)
-def test_a_body_is_within_its_error_of_the_twin(shape, alpha, T, chi, at):
-    case = contact(shape, alpha, T, chi, body=(1.0, 0.7, 0.4), at=at)
-    row = turning.row_of("", shape, case, -0.4 * mdr.critical_velocity(case, -1), **QUICK)
-    assert row.settled
-    assert row.doubt < 1e-5
-    assert row.error <= row.bound
 
 
 # --- limits ---
@@ -96,20 +58,6 @@ def test_half_a_period_later_is_the_other_way(T, body):
     assert mdr.slide(case, -v_0, **KNOBS).cof == pytest.approx(-mdr.slide(case, v_0, **KNOBS).cof, rel=1e-8)
 
 
-def test_the_other_way_is_the_mirror_image():
-    case = contact(alpha=0.5, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4))
-    one, other = mdr.slide(case, -1e-3, record=1, **KNOBS), mdr.slide(case.mirrored, 1e-3, record=1, **KNOBS)
-    assert (one.cof, one.v_0, one.mean_F_x) == (-other.cof, -1e-3, -other.mean_F_x)
-    for name in ("u_x", "F_x", "e", "f_x"):
-        assert_allclose(getattr(one, name), -getattr(other, name), rtol=0, atol=0)
-    for name in ("F_z", "s", "f_z", "u_z", "t"):
-        assert_allclose(getattr(one, name), getattr(other, name), rtol=0, atol=0)
-    swapped = {mdr.State.SLIP: mdr.State.SLIP_BACK, mdr.State.SLIP_BACK: mdr.State.SLIP}
-    for mode in mdr.State:
-        assert np.array_equal(one.state == mode, other.state == swapped.get(mode, mode))
-    assert one.energy_balance == other.energy_balance
-
-
 def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
     far = contact(alpha=0.4, T=0.3, chi=1.0, body=(1.0, 0.7, 0.4), at="pull")
     X = complex(far.way[0])
@@ -125,59 +73,12 @@ def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
 # --- accuracy, energy, the ends ---
 
 
-@pytest.mark.parametrize(
-    ("T", "body", "alpha", "chi"),
-    [(0.0, (1.0, 0.7, 0.4), 0.4, 1.0), (0.4, None, 1.4, 2.0)],
-    ids=["elastic body", "Kelvin, rigid, lost"],
-)
-def test_the_scheme_is_of_second_order(T, alpha, chi, body):
-    """In steps, and in springs, by a line through errors over a factor of 8 and 16, each of several contacts: the end
-    of slip crosses springs one by one, so that the error of one is erratic."""
-
-    def order(sizes, contacts, cofs, finest):
-        squares = np.zeros(sizes.size)
-        for one in contacts:
-            best = cofs(*one, finest)
-            squares += [np.sum((cofs(*one, size) - best) ** 2) for size in sizes]
-        return -0.5 * np.polynomial.polynomial.polyfit(np.log(sizes), np.log(squares), 1)[1]
-
-    def of(steps, springs, phi, shift):
-        case = contact("paraboloid", alpha, T, chi, phi, body=body)
-        knobs = Resolution(springs, steps, "full_slip", lump=True, bounded=False)
-        velocities = (np.array([0.17, 0.37, 0.55]) + shift) * mdr.critical_velocity(case)
-        return np.array([case.mu_0 * next(runs(case, [v_0], knobs)).cof for v_0 in velocities])
-
-    some = [(phi, 0.0) for phi in (0.3, 0.7, 1.9, 2.5)]
-    assert order(128 * 2 ** np.arange(4), some, lambda *one: of(one[2], 48, *one[:2]), 4096) > 1.95
-    more = [(phi, 0.019 * k) for k, phi in enumerate(np.linspace(0.15, 5.9, 8))]
-    assert order(24 * 2 ** np.arange(5), more, lambda *one: of(64, one[2], *one[:2]), 1536) > 1.9
-
-
-@pytest.mark.parametrize("at", ["tool", "pull"])
-@pytest.mark.parametrize("body", [None, (1.0, 0.7, 0.4)], ids=["rigid", "body"])
-@pytest.mark.parametrize("T", [0.0, 0.4])
-def test_energy_has_three_drives(T, body, at):
-    case = contact("paraboloid", alpha=0.4, T=T, chi=1.5, body=body, at=at)
-    account = mdr.slide(case, 1e-3, n_springs=64, steps_per_period=64).energy_balance
-    # the path of a body within a step is taken for a cubic, which misses h^4 = 9e-5 times a thousandth
-    assert abs(account.relative) < (1e-9 if body is None else 1e-7)
-    assert account.shake_work > 0.1 * account.friction_loss
-
-
 def test_a_pulling_point_shaken_on_an_undamped_resonance_is_refused():
     case = contact(at="pull", pull=mdr.SpringPull(k_x=0.05 * OMEGA**2, m=0.05))
     assert math.isinf(mdr.critical_velocity(case))
     assert math.isinf(mdr.full_slip_critical_velocity(case, -1))
     with pytest.raises(ValueError, match=r"undamped natural frequency.*damper"):
         mdr.slide(case, 1e-3)
-
-
-def test_a_core_of_one_height_is_one_spring():
-    """Of a flat punch, also under a shake; a round one slips back at its edge first, so that each spring is its own."""
-    for shape, lumped in (("flat", True), ("paraboloid", False)):
-        case = contact(shape, chi=0.5)
-        scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 64), 64, lump=True)
-        assert (scaled.springs.gap.size == 1) == lumped
 
 
 # --- invariances of an elastic contact, whose springs know no time ---
@@ -240,9 +141,3 @@ def test_a_contact_that_slips_in_every_period_rests_in_one_state(T, body):
     runs = [mdr.slide(case, 0.0, start=start) for start in ("full_slip", "rest")]
     assert [(run.settled, run.kind, run.why) for run in runs] == [(True, "periodic", "")] * 2
     assert runs[0].cof == pytest.approx(runs[1].cof, abs=runs[0].cof_error + runs[1].cof_error)
-
-
-def test_a_contact_that_holds_moves_on_at_any_pull():
-    case = contact("flat", chi=0.5)
-    assert mdr.slide(case, 1e-3 * case.pace).kind == "periodic"
-    assert mdr.cof_curve(case, [0.0], method="march").why == ("",)  # the limit of slow pulls is one number

@@ -6,17 +6,16 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-import reference
 from conftest import SHAPES, by_groups, contact, unit_of_velocity
+from contacts import BODY, STILL
 from numpy.testing import assert_allclose, assert_array_equal
+from twins import rigid_pull as reference
 
 import mdr
 from mdr import State
 from mdr.march.dynamics import full_slip
 from mdr.march.periodic import steady
 
-BODY = {"k_ratio": 0.7, "omega_0_ratio": 1.6, "c_ratio": 0.06}
-MASSLESS = {"k_ratio": 0.7, "omega_0_ratio": math.inf, "c_ratio": 0.3}
 #: light body on a soft damped spring: it swings so widely that it comes back over the surface
 BACKWARD = {"shape": "paraboloid", "depth_ratio": 10 / 3, "k_ratio": 0.02, "omega_0_ratio": 2.0, "c_ratio": 0.001}
 COARSE = {"n_springs": 96, "steps_per_period": 256}
@@ -32,15 +31,7 @@ def coarse(case, v_hat, n_periods=12, **knobs):
     return run_at(case, v_hat, n_periods=n_periods, **(COARSE | knobs))
 
 
-CONTACTS = {
-    "rigid elastic": contact("paraboloid", 2.5),
-    "rigid Kelvin": contact("cone", 2.5, 0.6),
-    "flat, contact lost": contact("flat", 0.7, 0.6),
-    "tapping": contact("paraboloid", -0.3, 0.6),
-    "body elastic": contact("cone", 2.5, **BODY),
-    "body Kelvin": contact("paraboloid", 2.5, 0.6, **BODY),
-    "massless Kelvin": contact("r4", 2.5, 0.6, **MASSLESS),
-}
+CONTACTS = {name: case for name, (_, case) in STILL.items()}
 on_all = pytest.mark.parametrize("case", CONTACTS.values(), ids=CONTACTS.keys())
 
 
@@ -82,24 +73,6 @@ def test_a_period_costs_two_numbers_of_memory():
     assert peaks[1] - peaks[0] < 5 * 8 * (numbers[1] - numbers[0])  # the two, and what judges them
 
 
-@on_all
-def test_records_have_their_shapes(case):
-    run = coarse(case, 0.43, record=2)
-    n_t, n_x = 2 * 256, 96
-    for name in ("t", "u_x", "u_z", "F_x", "F_z"):
-        assert getattr(run, name).shape == (n_t,), name
-    assert run.x.shape == (n_x,)
-    assert run.e.shape == run.state.shape == (n_t, n_x)
-    assert run.state.dtype == np.uint8
-    assert set(np.unique(run.state)) <= set(State)
-    assert_allclose(run.t[-1], 12 * case.oscillation.period, rtol=1e-14)
-    assert_allclose(np.diff(run.t), case.oscillation.period / 256, rtol=1e-9)  # a difference of t, so rtol 1e-16 n_t
-    assert_allclose(run.u_z, case.oscillation.u_z(run.t), rtol=0, atol=1e-12 * abs(case.u_z_max))
-    assert np.all(np.diff(run.x) > 0)
-    nothing = coarse(case, 0.43)
-    assert all(getattr(nothing, name) is None for name in RECORDS)
-
-
 # --- the lumped core ----------------------------------------------------------------------------------------
 
 
@@ -113,17 +86,6 @@ def test_springs_that_stand_alike_are_marched_as_one():
 
 
 # --- start --------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "flat, contact lost", "body elastic", "body Kelvin"])
-@pytest.mark.parametrize("v_hat", [0.3, 0.8])
-def test_the_start_is_forgotten(name, v_hat):
-    knobs = {"n_springs": 96, "steps_per_period": 256}
-    full_slip, rest = (run_at(CONTACTS[name], v_hat, start=start, **knobs) for start in ("full_slip", "rest"))
-    assert full_slip.settled
-    assert rest.settled
-    # a settled run is settled to 1e-6 of mu_0, either of them
-    assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=2e-6 * rest.mu_0)
 
 
 @pytest.mark.parametrize(
@@ -142,15 +104,6 @@ def test_a_swing_from_rest_is_waited_for(groups, share, most, knobs):
     full_slip, rest = (mdr.slide(case, v_0, start=start, **knobs) for start in ("full_slip", "rest"))
     assert full_slip.cof < most * case.mu_0
     assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=rest.cof_error + full_slip.cof_error)
-
-
-def test_from_rest_nothing_is_stretched():
-    case = CONTACTS["rigid elastic"]
-    run = coarse(case, 0.1, 1, start="rest", record=1)
-    # until the first springs slip, every one has gone with the indenter: e = v_0 t where it sticks from the start
-    sticking = np.all(run.state[:40, :8] == State.STICK, axis=1)
-    assert sticking.sum() > 10
-    assert_allclose(run.e[:40][sticking][:, 0], run.v_0 * run.t[:40][sticking], rtol=1e-12)
 
 
 # --- the COF ------------------------------------------------------------------------------------------------
@@ -232,23 +185,6 @@ def test_stick_share_is_the_force_weighted_share_of_time():
     assert off[1] < off[0] / 4
 
 
-# --- energy -------------------------------------------------------------------------------------------------
-
-
-@on_all
-def test_energy_is_conserved(case):
-    """Each term from its own definition: exact but for the damper and the motion of a body between two nodes."""
-    for steps in (64, 256):
-        balance = coarse(case, 0.43, 24, steps_per_period=steps).energy_balance
-        bound = 1e-9 if isinstance(case.pull, mdr.RigidPull) else 1e-3 if case.pull.m else 1e-2
-        assert abs(balance.relative) < (bound if bound == 1e-9 else bound * (64 / steps) ** 2)
-        for name in ("pull_work", "friction_loss"):
-            assert getattr(balance, name) > 0
-        assert (balance.viscous_loss > 0) == (case.T > 0)
-        damped = isinstance(case.pull, mdr.SpringPull) and case.pull.c_x > 0
-        assert (balance.damper_loss > 0) == damped
-
-
 # --- settling -----------------------------------------------------------------------------------------------
 
 
@@ -281,13 +217,6 @@ def test_a_run_of_given_length_says_what_its_error_leaves_out():
 
 
 # --- found by trying to break it --------------------------------------------------------------------------------
-
-
-def test_a_start_from_rest_is_not_settled_before_the_springs_are_stretched():
-    case = contact("cone", 1e8)
-    run = mdr.slide(case, 0.5 * unit_of_velocity(case), start="rest")
-    assert not run.settled
-    assert "periods to stretch the springs" in run.why
 
 
 def test_an_amplitude_lost_in_rounding_is_refused():
@@ -439,7 +368,7 @@ def test_a_flat_face_throws_a_body_without_mass_at_second_order(T, damper):
 
 
 def test_the_body_without_mass_on_dashpots_is_the_twin():
-    """0.584068 mu_0, by an integration in a million steps of first order (tests/reference.py)."""
+    """0.584068 mu_0, by an integration in a million steps of first order (tests/twins/rigid_pull.py)."""
     case = by_groups("flat", 0.4, 2.0, 1.5, math.inf, 3.0)
     run = run_at(case, 0.8)
     twin = reference.massless_punch(1 / 1.5, 0.8, 2.0, 3.0, 64_000)

@@ -50,15 +50,6 @@ def test_from_loss_tangent():
 
 
 @pytest.mark.parametrize("nu", RATIOS)
-def test_a_second_rigid_body_leaves_the_first(nu):
-    one, pair = mdr.Elastic(E=3e6, nu=nu), mdr.ElasticPair(E_1=3e6, nu_1=nu, E_2=3e26, nu_2=0.3)
-    for name in ("E_star", "G_star", "mindlin_ratio"):
-        assert_allclose(getattr(pair, name), getattr(one, name), rtol=EXACT)  # what is left of the second is 1e-20
-    # at nu = 1/2 nothing is left but the second body's own mismatch, 1e-20 of it
-    assert_allclose(pair.dundurs_beta, one.dundurs_beta, rtol=EXACT, atol=1e-19)
-
-
-@pytest.mark.parametrize("nu", RATIOS)
 def test_like_bodies_halve_the_modulus_and_do_not_couple(nu):
     one, pair = mdr.Elastic(E=3e6, nu=nu), mdr.ElasticPair(3e6, nu, 3e6, nu)
     assert pair.dundurs_beta == 0
@@ -163,19 +154,11 @@ def test_tables_of_arms(tmp_path):
     text = '[material]\nmodel = "Prony"\nE_inf = 1e6\narms = [[2e6, 0.01], [3e6, 1.0]]\nnu = 0.3\n'
     case.write_text(text, encoding="utf-8")
     assert mdr.Prony.read(case) == body
-    for content, words in (
-        (b"tau,E\n1,2\n", "the header names no E_j: tau, E"),
-        (b"E_j,tau_j\n1e6,nan\n", "line 2: nan is no number"),
-        (b"E_j,tau_j\n-1e6,1\n", "line 2: must have E_j >= 0 Pa and tau_j > 0 s"),
-        (b"E_j,tau_j\n1e6,\xff\n", "line 2 is not UTF-8"),
-    ):
-        table.write_bytes(content)
-        with pytest.raises(ValueError, match=rf"arms\.csv: .*{words}"):
-            mdr.Prony.read(table, nu=0.3)
+    table.write_text("E_j,tau_j\n-1e6,1\n")
+    with pytest.raises(ValueError, match=r"arms\.csv: .*line 2: must have E_j >= 0 Pa and tau_j > 0 s"):
+        mdr.Prony.read(table, nu=0.3)
     for text, words in (
-        ("material = 3\n", "must be one table"),
-        ("E_inf = 1.0\narms = 3\nnu = 0.3\n", r"arms\.toml: .*arms must be a sequence"),
-        ("E_inf = 1.0\n", "arms is missing"),
+        ("E_inf = 1.0\n", r"arms\.toml: .*arms is missing"),
         ('model = "Elastic"\n', 'model "Elastic" is not Prony'),
         ("E_inf = 1.0\nE_o = 2.0\n", "E_o is no key of Prony; there are model, E_inf, arms, nu, tau"),
     ):
@@ -204,24 +187,6 @@ def test_a_fit_that_misses_says_what_may_help():
         assert [bool(re.search(words, str(one.message))) for one in told] == [True] if words else not told
 
 
-def test_relative_moduli_are_known_by_their_form(tmp_path):
-    """Shares at random, rounded to three digits, are refused without E_0; moduli in pascals are read."""
-    rng, path = np.random.default_rng(2), tmp_path / "arms.csv"
-    for n in range(1, 31):
-        tau, shares = np.geomspace(1e-4, 1e4, n), rng.dirichlet(np.ones(n + 1)).round(3)
-        rest = [f"{shares[-1]}, inf"] if n % 2 else []
-        for scale, E_0 in ((1.0, 3e6), (10 ** rng.uniform(3, 9), None)):
-            rows = [f"{scale * g}, {t}" for g, t in zip(shares, tau, strict=False)]
-            path.write_text("\n".join(["E_j, tau_j", *rows, *(rest if E_0 else [f"{scale}, inf"])]) + "\n")
-            if E_0:
-                with pytest.raises(ValueError, match=r"shares of the instantaneous modulus: give E_0= in Pa"):
-                    mdr.Prony.read(path, nu=0.5)
-            body = mdr.Prony.read(path, nu=0.5, E_0=E_0)
-            assert_allclose([E for E, _ in body.arms], (E_0 or scale) * shares[:-1], rtol=1e-12)
-            if E_0:
-                assert_allclose(body.instantaneous_modulus * 0.75, E_0, rtol=1e-2)
-
-
 def test_a_case_of_one_pascal_reads_back():
     """Its file says the unit, so that it is not taken for shares."""
     motion = mdr.NormalOscillation(20e-6, 2e-6, 300.0)
@@ -233,18 +198,3 @@ def test_a_case_of_one_pascal_reads_back():
             mdr.parse_case(text.replace('" Pa"', "").replace('"0.25 Pa"', "0.25").replace('"0.5 Pa"', "0.5"))
         scaled = mdr.parse_case(text.replace('"0.25 Pa"', "0.25\nE_0 = 2e6").replace('"0.5 Pa"', '0.5\nE_0 = "2 MPa"'))
         assert_allclose(scaled.material.instantaneous_modulus * 0.75, 2e6)
-
-
-def test_as_many_arms_as_asked_for():
-    omega = np.geomspace(1.0, 1e4, 41)
-    modulus = 1e6 * (1j * omega) ** 0.3  # a power law needs them all
-    for n_arms in (1, 5):
-        found = mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=n_arms)
-        assert len(found.arms) == n_arms
-    assert_allclose(mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3, n_arms=1).arms[0][1], 1e-2, rtol=1e-12)
-
-
-def test_a_power_law_beyond_the_arms_says_how_near_it_comes(monkeypatch):
-    monkeypatch.setattr("mdr.materials.prony_fit.MOST_ARMS", 12)
-    with pytest.raises(ValueError, match=r"error = 0\.0001 of the power law is not reached by 12 arms, only 0\.\d+:"):
-        mdr.Prony.power_law(modulus=3e6, exponent=0.5, omega=(2.0, 2e4), nu=0.5, error=1e-4)

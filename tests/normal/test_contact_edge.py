@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-import reference_full_slip as reference
 from numpy.testing import assert_allclose
+from twins import full_slip as twin
 
 from mdr.case.depth_cycle import Cycle
 from mdr.normal import kelvin_edges
@@ -33,7 +33,7 @@ def test_a_cosine_has_the_same_edge_however_written(T, n, shift):
 
 def test_the_edge_is_the_least_chord():
     for cycle, T in some_series():
-        edge, _ = reference.edge(cycle.harmonics, T, PHASE)
+        edge, _ = twin.edge(cycle.harmonics, T, PHASE)
         # a parabola through three flights of the search, 2e-3 apart: 1e-9 of a bend of some N**3 (1 + T)
         assert_allclose(ContactEdge.of(cycle, T).gap(PHASE), edge, rtol=0, atol=1e-7 * (1 + T))
 

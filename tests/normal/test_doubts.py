@@ -90,14 +90,6 @@ def test_two_frequencies_are_each_their_own():
     assert "omega tau = 6.7" in doubts_of(replace(USUAL, shake=shake, material=lossy))[0]
 
 
-STEEL = mdr.Elastic(E=2.1e11, nu=0.3)
-
-
-def test_metal_on_a_soft_spring_and_tapping_from_the_surface_are_usual():
-    assert doubts_of(replace(USUAL, material=STEEL, pull=mdr.SpringPull(k_x=1e3, m=0.1))) == ()
-    assert doubts_of(replace(USUAL, oscillation=mdr.NormalOscillation(0.0, 2e-6, USUAL.omega))) == ()
-
-
 def test_studies_and_fits_warn_of_their_base_case():
     absurd = replace(USUAL, mu_0=50.0, material=mdr.Elastic(3e6, 0.5), pull=mdr.RigidPull())
     with pytest.warns(mdr.PlausibilityWarning, match="percentage"):
@@ -107,13 +99,6 @@ def test_studies_and_fits_warn_of_their_base_case():
         mdr.fit(absurd, data, ["mu_0"])
     with pytest.warns(mdr.PlausibilityWarning, match="in per cent"):
         mdr.FrictionData([1e-3], [40.0])
-
-
-def test_it_can_be_silenced():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        warnings.simplefilter("ignore", mdr.PlausibilityWarning)
-        mdr.critical_velocity(replace(USUAL, mu_0=50.0))
 
 
 @pytest.mark.parametrize("shape", SHAPES)

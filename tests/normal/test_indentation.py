@@ -8,8 +8,6 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.normal.indentation import indent
-from validation.cases import SHAPES as CASES
-from validation.normal_contact import P, pressed
 
 E_1, TAU = 9e6, 1e-2
 MATERIALS = {
@@ -87,40 +85,6 @@ def test_an_elastic_contact_has_no_memory():
 # --- Ting ---
 
 
-@pytest.mark.parametrize("shape", ["cone", "paraboloid"])
-@pytest.mark.parametrize("kind", ["Kelvin", "standard solid"])
-@pytest.mark.parametrize("T", [0.05, 0.5, 5.0])
-def test_press_and_release_is_tings(shape, kind, T):
-    run, ting = pressed(shape, kind, T)
-    some = np.arange(0, 2001, 40)
-    F = np.array([ting.force(at) for at in run.t[some]])
-    assert_allclose(run.F_z[some], F, atol=5e-5 * F.max())  # 512 springs and 2000 straight pieces of the sine
-    lost = run.t[np.flatnonzero(run.contact_radius)[-1] + 1]
-    assert lost == pytest.approx(ting.end, abs=1.5 * P / 2000)  # one sample, and half of one for its velocity
-    before = some[run.t[some] < min(ting.end, 0.97 * lost)]
-    a = CASES[shape].contact_radius(np.array([ting.u(ting.t_1(at)) for at in run.t[before]]))
-    # an edge that retreats by the whole radius within a few samples, T = 5, is known to a share of a sample
-    near = 2e-3 if kind == "standard solid" or T < 1 else 0.02
-    assert_allclose(run.contact_radius[before], a, atol=near * a.max())
-
-
-def test_a_second_press_meets_the_relaxed_surface():
-    body = MATERIALS["Kelvin"]
-    t = np.array([0, 1e-4, 1e-4, 5e-3, 5e-3 + 1e-6])
-    u_z = DEPTH * np.array([1, 1, 0, 0, 1.0])
-    still = u_z[1] * np.exp(-(t[3] - t[2]) / TAU)  # of the released spring in the centre
-    t, u_z = (
-        np.append(t[:4], t[3] + np.array([1e-5, 2e-5, 3e-5])),
-        np.append(u_z[:4], still * np.array([0.9, 0.99, 1.01])),
-    )
-    run = indent(SHAPES["paraboloid"], body, t, u_z)
-    assert np.all(run.F_z[2:6] == 0)
-    assert run.F_z[6] > 0
-    flat = indent(SHAPES["flat"], body, t, u_z)
-    assert np.all(flat.F_z[2:6] == 0)
-    assert flat.F_z[6] > 0
-
-
 @pytest.mark.parametrize("material", ["Kelvin", "standard", "arms", "arms and dashpot"])
 def test_after_any_tapping_contact_is_a_disc_and_force_settles_with_the_samples(material):
     """Loss and late return many times over; a spring that misses its return would leave a ring, or a wrong force."""
@@ -168,18 +132,6 @@ def test_jumps_of_bodies_far_stiffer_at_first_than_in_the_end_are_those_of_tiny_
 # --- limits and invariances ---
 
 
-def test_force_and_depth_are_each_others_inverse():
-    t = np.linspace(0, 0.03, 401)
-    F = 0.1 * np.maximum(np.sin(np.pi * t / 0.02), 0)
-    F[t > 0.01999] = 0
-    for name in ("standard", "arms", "Maxwell"):
-        for shape in SHAPES.values():
-            there = indent(shape, MATERIALS[name], t, F_z=F)
-            back = indent(shape, MATERIALS[name], t, there.u_z)
-            # a depth is straight between samples where a force is not: (dt/tau)²/12, dt = 7.5e-5 s, in the fastest arm
-            assert_allclose(back.F_z, F, atol=(5e-3 if name == "arms" else 1e-4) * F.max())
-
-
 def test_under_no_force_the_indenter_lies_on_the_surface():
     body, t = MATERIALS["standard"], np.array([0, 0.01, 0.01, 0.02, 0.2, 2.0])
     for shape in SHAPES.values():
@@ -203,16 +155,6 @@ def test_a_dashpot_takes_no_jump():
     assert run.u_z[1] == run.u_z[2] < run.u_z[3]
     jump = indent(SHAPES["flat"], body, [0, 0, 1], [0, DEPTH, DEPTH])
     assert_allclose(jump.F_z, [0, *2 * [2e-3 * body.E_star * DEPTH]], rtol=1e-12)  # its impulse is left out
-
-
-def test_the_force_is_proportional_to_the_modulus_and_more_springs_change_little():
-    t = np.linspace(0, 0.1, 1001)
-    u_z = DEPTH * np.sin(np.pi * t / 0.02)
-    coarse, fine = (indent(SHAPES["cone"], MATERIALS["standard"], t, u_z, n_springs=n) for n in (128, 1024))
-    assert_allclose(coarse.F_z, fine.F_z, atol=2e-4 * fine.F_z.max())  # 3/128², five releases and returns
-    double = mdr.StandardLinearSolid(E_inf=2e6, E_1=2 * E_1, tau_1=TAU, nu=0.5)
-    twice = indent(SHAPES["cone"], double, t, u_z, n_springs=128)
-    assert_allclose(twice.F_z, 2 * coarse.F_z, atol=1e-12 * coarse.F_z.max())
 
 
 def test_a_depth_history_may_never_touch_or_be_one_sample():

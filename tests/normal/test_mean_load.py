@@ -20,7 +20,6 @@ HORN = {
     "oscillation": {"frequency": 20e3, "load": 5.0, "du_z": 2e-6},
 }
 HELD = HORN | {"oscillation": HORN["oscillation"] | {"hold": "load"}}
-HARD = {"model": "Elastic", "E": 3e9, "nu": 0.4}
 
 
 def test_a_body_and_a_tapping_contact_are_held_in_a_march():
@@ -75,16 +74,6 @@ def test_what_varies_is_warned_of_and_not_what_it_begins_with():
         case_of(HORN)
 
 
-def test_a_fit_holds_the_mean_load():
-    said = case_of(HELD | {"oscillation": HELD["oscillation"] | {"du_z": 7e-6}})
-    truth = case_at(said.case, {**said.held, "material.E": 2.5e9})
-    v_0 = mdr.critical_velocity(truth) * np.array([0.02, 0.1, 0.3, 0.6])
-    data = mdr.FrictionData(v_0=v_0, cof=mdr.cof_curve(truth, v_0).cof)
-    found = mdr.fit(said.case, data, ["E"], held=said.held)
-    assert_allclose(found.values["E"], 2.5e9, rtol=1e-4)
-    assert_allclose(mean_normal_force(found.case), 5.0, rtol=1e-9)
-
-
 def test_a_load_that_is_sought_or_varied_is_the_mean_load():
     said = case_of(HELD | {"oscillation": HELD["oscillation"] | {"du_z": 7e-6}})
     v_0, truth = 0.01, case_at(said.case, {"load": 7.0, "hold": "load"})
@@ -118,16 +107,6 @@ def test_what_is_held_in_python_says_of_what():
         still_held({"hold": "load"}, [])
     assert still_held({"load": 5.0, "hold": "load"}, ["oscillation.u_z0"]) == {}
     assert still_held({"load": 5.0, "hold": "load"}, ["load"]) == {"hold": "load"}
-
-
-def test_a_load_alone_beside_a_shake_is_constant():
-    for alone, motion in (({"load": 50.0}, mdr.ConstantLoad(50.0)), ({"u_z0": 2e-6}, mdr.ConstantDepth(2e-6))):
-        tables = HORN | {"oscillation": alone, "shake": {"frequency": 20e3, "du_x": 8e-6}}
-        tables["material"] = HARD
-        assert case_of(tables).case.oscillation == motion
-        axes = {"axes": {"oscillation": [alone]}, "quantities": ["mean_F_N"]}
-        if "u_z0" in alone:
-            assert study_from(tables | axes).axes["oscillation"] == [motion]
 
 
 def test_a_shape_that_ends_is_held_as_far_as_it_reaches():

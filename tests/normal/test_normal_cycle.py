@@ -6,7 +6,6 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import N_STEPS, normal_cycle
 from validation.full_slip import full_slip
 
@@ -25,29 +24,6 @@ def test_force_is_that_of_the_closed_form(shape, depth_ratio, T):
     radius = np.abs(known.contact_radius - exact.contact_radius)
     assert np.quantile(radius, 0.99) < 0.01 * exact.contact_radius.max()
     assert np.mean(known.in_contact != exact.in_contact) < 2 / N_STEPS + 1e-12
-
-
-@pytest.mark.parametrize("arms", [((2.0,), (0.7,)), ((5.0, 1.0), (0.01, 40.0))])
-def test_a_punch_that_keeps_contact_answers_by_its_dynamic_modulus(arms):
-    case = contact("flat", 40.0)
-    rheology = Rheology(0.2, *arms)
-    F = normal_cycle(case.indenter, rheology, case.cycle, 64).F_N
-    phase = 2 * np.pi * np.arange(64) / 64
-    expected = 40 + (rheology.response(1) * np.exp(1j * phase)).real
-    assert_allclose(F, 2 * case.indenter.a * case.cycle.du_z * expected, rtol=1e-13)
-
-
-@pytest.mark.parametrize("theta", [0.3, 30.0, 3000.0])
-@pytest.mark.parametrize("depth_ratio", [1.0, -0.2])
-def test_arms_are_in_their_periodic_state_however_slow(theta, depth_ratio):
-    # the mean of every arm over a period is zero, so the mean force is that of the mean compression, E_inf alone
-    case = contact("paraboloid", depth_ratio)
-    rheology = Rheology(0.0, (3.0,), (theta,))
-    coarse, fine = (normal_cycle(case.indenter, rheology, case.cycle, n, 128) for n in (1024, 4096))
-    assert_allclose(coarse.F_N.mean(), fine.F_N.mean(), rtol=1e-4)
-    # an arm far slower than the period gives a mean support: the surface stands lower where the indenter leaves it
-    assert fine.F_N.min() >= -1e-18
-    assert fine.F_N.max() > 0
 
 
 def test_touch_is_between_two_instants():

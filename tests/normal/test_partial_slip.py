@@ -1,7 +1,5 @@
 """A pull at fixed depth: Cattaneo-Mindlin, Mindlin-Deresiewicz, and springs that stick and slip one by one."""
 
-import math
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -46,19 +44,6 @@ def test_a_pull_is_that_of_springs_that_slip_one_by_one(shape):
     assert_allclose(spring_by_spring(ALL[shape], u_x), pulled.F_x, atol=2e-7 * MU_0 * pulled.F_z)
 
 
-def test_hertz_is_cattaneo_and_mindlin():
-    R = 5e-3
-    a, F_N = math.sqrt(R * DEPTH), 4 / 3 * BODY.E_star * math.sqrt(R) * DEPTH**1.5
-    share = np.array([0.0, 0.3, 0.9, 1.0])
-    u_x = (
-        3 * MU_0 * F_N / (4 * BODY.G_star * a) * (1 - (1 - share) ** (2 / 3))
-    )  # 1/G* = (2 - nu)/(4 G): 3/16 (2 - nu)/G
-    pulled = partial_slip(mdr.Paraboloid(R=R), BODY, MU_0, DEPTH, u_x)
-    assert_allclose(pulled.F_z, F_N, rtol=1e-13)
-    assert_allclose(pulled.F_x, share * MU_0 * F_N, rtol=1e-12, atol=1e-13 * F_N)
-    assert_allclose(pulled.stick_radius, a * (1 - share) ** (1 / 3), rtol=1e-9, atol=1e-5 * a)  # a root at full slip
-
-
 def test_the_punch_sticks_as_a_whole():
     pulled = partial_slip(mdr.FlatPunch(a=1e-3), BODY, MU_0, DEPTH, FULL_SLIP * np.array([0.5, 0.999, 1.001]))
     assert_allclose(pulled.stick_radius, [1e-3, 1e-3, 0])
@@ -75,12 +60,6 @@ def test_a_loop_closes_and_costs_its_area(shape, share):
     # trapezoids on 2000 steps: (pi/4000)²/3 of the rectangle 4 U F around the loop
     rectangle = 4 * loop.u_x[0] * loop.F_x[0]
     assert abs(loop.loss) == pytest.approx(abs(area), abs=5e-7 * rectangle)
-
-
-def test_the_slow_pull_knows_the_long_time_modulus_only():
-    body = mdr.StandardLinearSolid(E_inf=3e6, E_1=9e6, tau_1=1.0, nu=0.3)
-    one, two = (partial_slip(mdr.Cone(theta=0.02), m, MU_0, DEPTH, FULL_SLIP / 3) for m in (BODY, body))
-    assert one.F_x == pytest.approx(two.F_x, rel=1e-14)
 
 
 def test_answers_come_in_the_shape_of_the_question():

@@ -42,11 +42,6 @@ def test_the_loss_tangent_is_that_of_the_material_at_the_frequency():
     assert case.material.E == RUBBER.E
 
 
-def test_a_shake_alone_is_under_a_constant_load():
-    case = rig(shake=mdr.InPlaneOscillation(OMEGA, 1e-6))
-    assert case.oscillation == mdr.ConstantLoad(1.0)
-
-
 def test_a_sled_heavier_than_its_load_is_warned_of():
     with pytest.warns(mdr.PlausibilityWarning, match=r"weight of the sled, 1\.961 N, is more than the load of 1 N"):
         rig(load_amplitude=0.1, k_x=2e4, m=0.2, load_rides=True)

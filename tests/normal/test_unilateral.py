@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-import reference
 from numpy.testing import assert_allclose
+from twins import rigid_pull as reference
 
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, leaving_phase, touching_phase, turning_phase
 
@@ -12,11 +12,11 @@ RELAXATION = [0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5, 1.0, 3.0, 30.0, 100.0]
 
 @pytest.mark.parametrize("T", RELAXATION)
 def test_contact_edge_against_the_twin(T):
-    phase = np.linspace(0, 2 * np.pi, 401)
-    # the twin counts the depth of the spring, not of the edge; at 2 pi it begins the next period, which is the same
-    twin = [-reference.edge_of_contact(t, T) for t in phase]
+    """A spring is the edge as it touches and as it leaves."""
+    h = np.linspace(-1, np.hypot(1, T), 402)[1:-1]
     # near the turn the edge is flat, and a flight is known to rounding over its length
-    assert_allclose(contact_edge(phase, T), twin, rtol=0, atol=1e-12 * (1 + T))
+    for phase in reference.contact_times(h, T):
+        assert_allclose(contact_edge(phase % (2 * np.pi), T), -h, rtol=0, atol=1e-12 * (1 + T))
 
 
 @pytest.mark.parametrize("T", RELAXATION)

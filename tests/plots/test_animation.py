@@ -10,7 +10,6 @@ from PIL import Image
 
 import mdr
 from mdr.plots.animation import _Springs, animate_springs
-from mdr.plots.side_view import _image
 
 
 @pytest.fixture(scope="module")
@@ -85,19 +84,6 @@ def test_the_ground_takes_along_feet_that_stick_and_is_back_after_a_period(run):
     assert np.max(np.abs(off - np.round(off))[sticks]) < 1e-9
     turns = run.v_0 * 2 * np.pi / run.omega * picture.view.lean / picture.apart
     assert abs(turns - round(turns)) < 1e-9 < turns
-
-
-def test_a_shape_goes_on_beyond_its_contact_and_a_punch_ends(run):
-    punch = mdr.slide(contact("flat", 1.5, 0.5), 1e-4, n_springs=32, steps_per_period=32, record=1)
-    (x, g), (of_punch, _) = _image(run), _image(punch)
-    assert of_punch[-1] == punch.x[-1]
-    assert x[-1] > run.x[-1]
-    assert 0.95 < (g[-1] - g[0]) / (x[-1] ** 2 / 5e-3) < 1  # the tangent of the paraboloid, or just below
-
-
-def test_a_run_animates_itself(run, tmp_path):
-    made = run.animate(tmp_path / "own.gif", frames=2, title="mine")
-    assert made.path.read_bytes() == animate_springs(run, tmp_path / "two.gif", 2, "mine").path.read_bytes()
 
 
 def test_what_it_cannot_draw_is_refused(run, tmp_path):

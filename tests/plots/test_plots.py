@@ -112,14 +112,6 @@ def test_unsettled_points_are_hollow_and_their_error_shows():
     assert not plots.plot_curve(made_up_curve()).containers
 
 
-def test_several_curves_share_given_axes():
-    _, ax = plt.subplots()
-    curves = [made_up_curve(static=s) for s in np.linspace(0.1, 0.4, 9)]
-    assert plots.plot_curve(curves, ax, labels=[f"case {i}" for i in range(9)]) is ax
-    assert len(legend_texts(ax)) == 10
-    assert len({str(line(ax, f"case {i}").get_color()) for i in range(9)}) == 9
-
-
 @pytest.mark.parametrize("v_c", [np.inf, np.nan, None, 0.0])
 def test_without_a_finite_v_c_the_axis_is_the_velocity_itself(v_c):
     ax = plots.plot_curve([made_up_curve(v_c=v_c), made_up_curve()], labels=["a", "b"])
@@ -170,11 +162,6 @@ def test_spring_map_of_one_spring_out_of_order_and_of_a_long_record():
     plots.plot_spring_map(run).figure.canvas.draw()
 
 
-def test_modes_follow_the_library():
-    State = pytest.importorskip("mdr").State
-    assert [name for name, _ in plots.MODES] == [State(i).name.lower().replace("_", " ") for i in range(4)]
-
-
 def test_traces_show_forces_and_feet():
     run = made_up_run()
     forces, places, velocities = plots.plot_traces(run).axes
@@ -208,22 +195,6 @@ def test_a_run_is_its_map_above_its_forces():
     assert not above.get_xlabel()
 
 
-def test_maps_of_several_runs_share_axes_colours_and_legend():
-    one, two = made_up_run(), made_up_run()
-    two.state, two.x = np.full_like(two.state, SLIP_BACK), 1e3 * two.x
-    figure = plots.plot_spring_maps([one, two], ["one", "two"])
-    assert [ax.get_title() for ax in figure.axes] == ["one", "two"]
-    assert figure.axes[0].get_ylim() == figure.axes[1].get_ylim()
-    assert "[mm]" in figure.axes[0].get_ylabel()
-    assert not figure.axes[1].get_ylabel()
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["free", "stick", "slip", "slip back"]
-    slip_back = np.unique(figure.axes[1].collections[0].to_rgba([SLIP_BACK]), axis=0)[0]
-    assert matplotlib.colors.to_hex(slip_back) == plots.MODES[SLIP_BACK][1].lower()
-    for runs, labels in (([one], ["a", "b"]), ([], [])):
-        with pytest.raises(ValueError, match="labels must name each"):
-            plots.plot_spring_maps(runs, labels)
-
-
 def test_a_run_without_a_record_is_refused():
     bare = SimpleNamespace(t=None)
     for draw in (plots.plot_spring_map, plots.plot_traces, plots.plot_forces, plots.plot_run):
@@ -244,33 +215,6 @@ def test_profile_shows_springs_down_to_the_indenter(d, unit):
     assert left.get_title() != right.get_title()
 
 
-def test_profile_takes_positions_or_a_record_of_springs():
-    x = np.array([1e-5, 9e-5, 2e-4])
-    for springs in (x, SimpleNamespace(x=x)):
-        _, right = plots.plot_profile(Ball(), 2e-5, springs=springs).axes
-        assert sum(len(d.get_segments()) for d in right.collections if hasattr(d, "get_segments")) == 6
-
-
-@pytest.mark.parametrize(("largest", "expected"), [(3e-6, "µm"), (1e-3, "mm"), (0.0, "m"), (2e4, "km"), (1e-30, "pm")])
-def test_prefix(largest, expected):
-    factor, unit = plots.prefix([0.0, -largest, np.nan], "m")
-    assert unit == expected
-    assert factor == pytest.approx(10.0 ** {"µm": 6, "mm": 3, "m": 0, "km": -3, "pm": 12}[expected])
-
-
-def test_a_force_that_turns_is_drawn_between_both_limits():
-    shake = mdr.InPlaneOscillation(omega=300.0, du_x=3e-5, phi_x=1.5)
-    depth = mdr.NormalOscillation(u_z0=20e-6, du_z=10e-6, omega=300.0)
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
-    run = mdr.slide(case, -2e-3, record=1, n_springs=32, steps_per_period=64)
-    ax = plots.plot_forces(run)
-    assert f"mean, {run.mean_F_x / (0.4 * run.mean_F_z):.3g} " in legend_texts(ax)[0]
-    low, high = ax.get_ylim()
-    assert low < 0 < high
-    limits = [line.get_ydata() for line in ax.lines if len(line.get_ydata()) == 64]
-    assert any(np.all(y <= 0) for y in limits)
-
-
 @pytest.mark.parametrize("back", [None, -0.1])
 def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
     v_0 = np.array([-0.02, -0.01, 0.01, 0.02])
@@ -279,11 +223,6 @@ def test_a_curve_of_both_ways_jumps_at_rest_or_is_broken_there(back):
     line = max(ax.lines, key=lambda one: len(one.get_xdata()))
     at_rest = line.get_ydata()[np.asarray(line.get_xdata()) == 0]
     assert_array_equal(at_rest, [np.nan if back is None else back, 0.3])
-
-
-def test_one_place_has_edges_of_its_own_size():
-    assert_array_equal(mdr.plots.edges_of(np.array([3.0])), [0.0, 6.0])
-    assert_array_equal(mdr.plots.edges_of(np.array([0.0])), [-0.5, 0.5])
 
 
 def test_a_figure_is_saved_beside_its_script(tmp_path):
@@ -319,13 +258,6 @@ def test_shaken_across_the_colour_of_a_slip_is_its_direction():
     assert legend_texts(above) == ["free", "stick"]
     assert "0 along the pull, 90 across" in bar.get_ylabel()
     assert_allclose(line(below, "$F_y$").get_ydata(), run.F_y)
-
-
-def test_maps_with_and_without_a_shake_across_have_one_bar():
-    fig = plots.plot_spring_maps([made_up_run(), shaken_across(), shaken_across()], ["still", "one", "two"])
-    assert [len(ax.collections) for ax in fig.axes[:3]] == [1, 2, 2]
-    assert len(fig.axes) == 4
-    assert [text.get_text() for text in fig.legends[0].get_texts()] == ["free", "stick", "slip"]
 
 
 def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():

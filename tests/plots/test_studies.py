@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -81,12 +80,6 @@ def test_curves_of_a_family_are_rows(flat):
     assert r"\alpha" in ax.get_legend().get_title().get_text()
 
 
-def test_one_axis_is_one_curve(flat):
-    ax = flat.select({"alpha": 0.3}).plot_curves("cof")
-    assert len([line for line in ax.lines if len(line.get_xdata()) == 4]) == 1
-    assert ax.get_legend() is None
-
-
 def test_small_multiples_share_their_colours(study):
     fig = study.plot_multiples("cof", over="T", x="v_0/v_c")
     maps = [ax.collections[0] for ax in fig.axes if ax.get_title()]
@@ -126,16 +119,6 @@ def test_a_map_over_velocity_shows_the_critical_one(flat):
     assert critical(slow.plot_map("cof")) == []  # out of sight
 
 
-@pytest.mark.parametrize("x", ["v_0", "oscillation.du_z"])
-def test_a_map_in_metres_per_second_shows_it_too(x):
-    axes = {"oscillation.du_z": [3e-6, 1e-6, 2e-6], "v_0": [1e-4, 2e-3]}
-    line = critical(mdr.sweep(CASE, axes).plot_map("cof", x=x))[0]
-    cases = [replace(CASE, oscillation=replace(CASE.oscillation, du_z=du_z)) for du_z in (1e-6, 2e-6, 3e-6)]
-    v_c = np.array([mdr.critical_velocity(case) for case in cases])
-    assert_allclose(line[0 if x == "v_0" else 1], 1e3 * v_c)  # mm/s
-    assert_allclose(line[1 if x == "v_0" else 0], [1, 2, 3])  # µm
-
-
 def test_the_picture_of_a_map_has_contours_round_or_chosen(study, flat):
     def contours(fig):
         return [one for ax in fig.axes for one in ax.collections if hasattr(one, "levels")]
@@ -155,13 +138,6 @@ def test_small_multiples_name_what_failed_once_beside_the_titles(study):
     curves = broken(study, (1, 2, 1), Status.FAILED).select({"T": 1.0}).plot_multiples("cof", over="alpha")
     assert [text.get_text() for text in curves.legends[0].get_texts()] == ["1 failed"]
     assert study.select({"T": 1.0}).plot_multiples("cof", over="alpha").legends == []
-
-
-def test_small_multiples_may_be_logarithmic_beside_zeros(study):
-    zero = replace(study, values=np.where(study.values == study.values.min(), 0.0, study.values))
-    fig = zero.plot_multiples("cof", over="T", log=True)
-    fig.canvas.draw()
-    assert all(ax.collections[0].norm.vmin > 0 for ax in fig.axes if ax.get_title())
 
 
 def test_a_map_of_nothing_is_drawn(flat):
@@ -190,13 +166,3 @@ def test_the_picture_that_suits(study, flat, shapes):
     assert [ax.get_title() for ax in three.plot().axes[:2]] == ["Paraboloid(R=0.005)", "Cone(theta=0.05)"]
     by_number = study.plot()
     assert sum(ax.get_title() != "" for ax in by_number.axes) == len(T)  # over the shortest axis
-
-
-def test_no_contour_follows_the_rounding_of_a_plateau():
-    """Above v_c friction is mu_0 but for rounding, and 0.5 would be a round level."""
-    study = mdr.sweep(CASE, {"alpha": [0.3, 0.6], "v_0/v_c": [0.2, 0.8, 1.2, 1.4]}, n_springs=64, steps_per_period=128)
-    top = float(study["cof"].max())
-    lines = [one for one in study.plot().axes[0].collections if isinstance(one, mpl.contour.ContourSet)]
-    levels = np.concatenate([one.levels for one in lines])
-    assert levels.size
-    assert levels.max() < top - 0.005 * (top - float(study["cof"].min()))

@@ -39,18 +39,6 @@ def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
     return answer(law, s, e, gap, w, Path(0.0, z_1, 0.0, complex(x_1), complex(x_2)), h), s, e
 
 
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
-def test_turned_axes_turn_the_answer(law):
-    springs = some_springs(law, np.random.default_rng(1))
-    turn, speed = np.exp(0.7j), 10.0 if law.T == 0 else 1.0  # so that some stick and some slip
-    x_1, x_2 = speed * (0.9 - 1.2j), speed * (-3.0 + 5.0j)
-    of, _, e = stepped(law, springs, x_1, x_2)
-    gap, w, s, start = springs
-    there, _, e_there = stepped(law, (gap, w, s, turn * start), turn * x_1, turn * x_2)
-    assert_allclose(e_there, turn * e, atol=1e-13)
-    assert_allclose(there[:3], turn * np.array(of[:3]), atol=1e-13)
-
-
 def a_period(law, springs, angle, n_steps=24):
     """A period that is turned by an angle: areas of the force and extensions at its end, both turned back; and after
     each step the shares of springs that stick and that do not touch.

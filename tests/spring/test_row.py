@@ -114,13 +114,6 @@ def test_all_modes_are_met(material):
 
 
 @every_material
-def test_a_look_changes_nothing(material):
-    one = rows(material)[0]
-    for seen, unseen in zip(one.looked_at()[0], one.stepped(), strict=True):
-        assert_allclose(seen, unseen, rtol=0, atol=1e-15)
-
-
-@every_material
 def test_the_normal_part_alone_is_that_of_the_step(material):
     for one in rows(material):
         s, area, _, since = one.pressed()
@@ -161,19 +154,6 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
         known = of_row.area, of_row.moment, of_row.end
         assert keeps.any()
         assert_allclose((of_slip + area, moment_of_slip + moment, normal + force), known, atol=1e-12)
-
-
-@every_material
-def test_the_normal_part_may_be_cut_into_two(material):
-    for one in rows(material):
-        s, area, moment, _ = one.pressed()
-        half = 0.5 * one.h
-        first = Row(material, one.path, half, one.gap, one.s, one.e, one.w)
-        s_1, a_1, m_1, _ = first.pressed()
-        second = Row(material, one.from_then(half), half, one.gap, s_1, one.e, one.w)
-        s_2, a_2, m_2, _ = second.pressed()
-        assert_allclose(s_2, s, rtol=0, atol=1e-11)
-        assert_allclose([a_1 + a_2, m_1 + m_2 + half * a_2], [area, moment], rtol=0, atol=1e-11)
 
 
 def test_a_parabola_that_begins_below_zero_by_a_rounding_and_falls_has_its_zero_at_once():

@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.given.vary import case_at
-from mdr.studies.points import velocities_of
 
 PARTS = {
     "mu_0": 0.3,
@@ -77,12 +76,3 @@ def test_fields_of_one_record_are_set_together():
     assert (case.oscillation.u_z0, case.oscillation.du_z) == (-3e-6, 4e-6)
     motion = case_at(RIGID, {"oscillation.u_z0": -4e-6, "alpha": -1.5, "frequency": 50.0}).oscillation
     assert_allclose([motion.u_z0, motion.du_z, motion.omega], [-4e-6, 6e-6, 100 * np.pi], rtol=1e-15)
-
-
-def test_velocities(monkeypatch):
-    ratios = np.array([0.0, 0.5])
-    assert velocities_of(BODY, "v_0", ratios) is ratios
-    assert_allclose(velocities_of(BODY, "v_0/v_c", ratios), ratios * mdr.critical_velocity(BODY), rtol=0)
-    monkeypatch.setattr("mdr.studies.points.critical_velocity", lambda case: 0.0)
-    with pytest.raises(ValueError, match="v_0/v_c: the critical velocity of this case is zero"):
-        velocities_of(BODY, "v_0/v_c", ratios)

@@ -15,20 +15,6 @@ from mdr.tools.progress import Ended
 from mdr.tools.status import Status
 
 
-def test_values_are_those_of_direct_calls():
-    axes = {"v_0/v_c": [0.0, 0.5, 1.1], "indenter": SHAPES, "T": [0.1, 1.0]}
-    study = mdr.sweep(RIGID, axes, quantities=["cof", "stick_share", "v_c", "mean_F_N"])
-    assert study.shape == (3, 3, 2)
-    for i, shape in enumerate(SHAPES):
-        for j, T in enumerate(axes["T"]):
-            case = replace(RIGID, indenter=shape, material=replace(RIGID.material, tau=T / 300.0))
-            curve = mdr.cof_curve(case, np.array(axes["v_0/v_c"]) * mdr.critical_velocity(case))
-            assert_array_equal(study["cof"][:, i, j], curve.cof)
-            assert_array_equal(study["stick_share"][:, i, j], curve.stick_share)
-            assert_array_equal(study["v_c"][:, i, j], mdr.critical_velocity(case))
-    assert study.count(Status.DONE) == 18
-
-
 def test_a_case_that_cannot_be_built_is_a_failure_of_its_points():
     study = mdr.sweep(RIGID, {"oscillation.u_z0": [-1e-3, 6e-6], "v_0": [1e-4, 2e-4]}, quantities=["cof", "v_c"])
     assert_array_equal(study.status, [[Status.FAILED] * 2, [Status.DONE] * 2])
@@ -88,16 +74,6 @@ def test_a_quantity_that_fails_leaves_the_others():
     assert_array_equal(study["own"], [1.0, np.nan, np.nan])
     assert_array_equal(study.status, [Status.DONE, Status.FAILED, Status.FAILED])
     assert study.why.tolist() == ["", "own: is not a number", "own: KeyError: 'steep'"]
-
-
-def test_a_quantity_of_velocity_fails_at_its_own():
-    def of(case, v_0):
-        return 1 / v_0
-
-    own = Quantity("slowness", "s/m", of, per_velocity=True)
-    study = mdr.sweep(RIGID, {"v_0": [0.0, 0.5]}, quantities=["cof", own])
-    assert_array_equal(study["slowness"], [np.nan, 2.0])
-    assert study.why[0] == "slowness: ZeroDivisionError: float division by zero"
 
 
 def test_reasons_are_one_line_without_places_in_memory():

@@ -106,17 +106,6 @@ def test_another_process_may_merge_at_any_moment(part_done, whole, monkeypatch, 
     assert sorted(os.listdir(part_done)) == LEFT
 
 
-def test_two_may_merge_at_once(part_done, monkeypatch):
-    """The other has merged and cleared away, as a leftover, the very file that this one was about to move in."""
-    small(part_done)
-    data, real = (part_done / "study.nc").read_bytes(), os.replace
-    monkeypatch.setattr(os, "replace", lambda partial, path: (os.unlink(partial), real(partial, path)))
-    Store(part_done).merge(data)
-    (part_done / "study.nc").unlink()
-    with pytest.raises(mdr.studies.StudyError, match=r"study.nc cannot be written \(No such file"):
-        Store(part_done).merge(data)
-
-
 # --- stores that are of no use ---
 
 
@@ -161,14 +150,6 @@ def test_a_store_of_no_use_says_what_to_do_and_is_left_alone(part_done, file, ch
             assert [path for path in part_done.rglob("*") if "chunks" not in path.parts] == before
 
 
-def test_a_file_in_the_place_of_the_folder(tmp_path):
-    (tmp_path / "store").write_text("")
-    with pytest.raises(mdr.studies.StudyError, match="is a file; give a folder for the store"):
-        small(tmp_path / "store")
-    with pytest.raises(mdr.studies.StudyError, match=r"store/inside: study.json cannot be written"):
-        small(tmp_path / "store" / "inside")
-
-
 OTHER = replace(BODY, indenter=SHAPES[1], material=mdr.Elastic(3e6, 0.5), oscillation=mdr.ConstantLoad(1), shake=SHAKE)
 
 
@@ -202,38 +183,6 @@ def test_a_store_is_of_one_version_and_of_the_sources_that_can_move_a_value(part
     words = f"mdr is 0.1.0 there and 9.9 here; code of mdr is {known} there and {specification.code()} here"
     with pytest.raises(mdr.studies.StudyError, match=words):
         small(part_done)
-
-
-class Plain(mdr.Indenter):
-    """A shape that is no dataclass."""
-
-    def profile_1d(self, x):
-        return 100.0 * np.square(x)
-
-
-@pytest.mark.parametrize(
-    ("shape", "words"),
-    [(Plain(), "cannot be told by its data, as a store must"),
-     (mdr.Profile(lambda r: 100 * r**2), r"Profile holds a function, which a store cannot compare .* name it")],
-)  # fmt: skip
-def test_what_cannot_be_told_by_its_data_is_refused_in_a_store_alone(tmp_path, shape, words):
-    options = {"axes": {"indenter": [shape]}, "quantities": ["k_zc"]}
-    with pytest.raises(ValueError, match=words):
-        small(tmp_path / "store", **options)
-    assert not (tmp_path / "store").exists()
-    found = small(None, **options)
-    assert (found.complete, found.identity) == (True, "")
-
-
-def test_what_has_a_name_is_told_by_it(tmp_path):
-    """A function as a shape or a quantity; the case, which no file can carry, is told in words."""
-    case = replace(RIGID, indenter=mdr.Profile(lambda r: 100 * r**2, name="bowl"))
-    found = small(tmp_path, {"mu_0": [0.5]}, case, [mdr.Quantity("own", "m", depth)])
-    assert re.match(r"SlidingContact\(indenter=Profile\(f=<function .*name='bowl'", found.case)
-    assert " at 0x" not in found.case
-    case = replace(RIGID, indenter=mdr.Profile(lambda r: 200 * r**2, name="bowl"))
-    assert small(tmp_path, {"mu_0": [0.5]}, case, [mdr.Quantity("own", "m", len)])["own"] == found["own"] == [6e-6]
-    assert mdr.read_study(tmp_path) == found
 
 
 # --- disks that are full or cannot be written ---
@@ -282,3 +231,24 @@ def test_the_names_in_a_store_stay(part_done):
     assert json.loads((part_done / PLAN).read_text()) == {"n_units": 16, "units_per_chunk": 1}
     with np.load(Path(part_done) / "chunks" / "000004.npz") as chunk:
         assert set(chunk) == {"values", "status", "head"}
+
+
+class Plain(mdr.Indenter):
+    """A shape that is no dataclass."""
+
+    def profile_1d(self, x):
+        return 100.0 * np.square(x)
+
+
+@pytest.mark.parametrize(
+    ("shape", "words"),
+    [(Plain(), "cannot be told by its data, as a store must"),
+     (mdr.Profile(lambda r: 100 * r**2), r"Profile holds a function, which a store cannot compare .* name it")],
+)  # fmt: skip
+def test_what_cannot_be_told_by_its_data_is_refused_in_a_store_alone(tmp_path, shape, words):
+    options = {"axes": {"indenter": [shape]}, "quantities": ["k_zc"]}
+    with pytest.raises(ValueError, match=words):
+        small(tmp_path / "store", **options)
+    assert not (tmp_path / "store").exists()
+    found = small(None, **options)
+    assert (found.complete, found.identity) == (True, "")

@@ -1,8 +1,8 @@
 """Tables of random contacts, run by hand: `python tests/tables NAME [n]`, exit status 1 where one does not hold.
 
-    errors [n] [coarse]   true error of slide() beside cof_error, with default or with coarse knobs
-    theorems [n] [first]  what a settled run must obey
     turning [n] [bodies] [along]  true error of slide() under a shake across the pull, or along it, beside the twin
+    errors [n] [coarse]   true error of slide() against finer steps and springs
+    theorems [n]          what no settled run may contradict, on random bodies
     ways [n] [quick]      one motion written in six ways: no function may tell them apart
 
 Each takes minutes for its n contacts; its docstring says more.

@@ -55,16 +55,6 @@ def test_an_unknown_end(capsys, monkeypatch):
     assert capsys.readouterr().err == "velocity: 1 runs so far\n"
 
 
-def test_a_terminal_gets_a_bar_from_where_it_stands(capsys, monkeypatch):
-    monkeypatch.setattr(module.sys.stderr, "isatty", lambda: True, raising=False)
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
-    for _ in progress(range(15), "sweep", "chunks", 20, done=5):
-        time.sleep(0.06)
-    shown = capsys.readouterr().err
-    assert "sweep" in shown
-    assert re.search("[6-9]/20", shown)
-
-
 def test_silent_work_is_watched(capsys, clock):
     calls = []
     with silent(lambda: calls.append(1)):

@@ -12,11 +12,14 @@ from validation.full_slip import full_slip
 
 CASE = contact("cone", 2.0)
 V_0 = 0.5 * unit_of_velocity(CASE)
+BAND = mdr.Spectrum.band(rms=2e-6, f_low=50.0, f_high=100.0)
 MAKE = {
     "run": lambda v: mdr.slide(CASE, v, n_springs=32, steps_per_period=64, n_periods=8, record=1),
     "curve": lambda v: mdr.cof_curve(CASE, [0.0, v]),
     "friction": lambda v: average_friction(CASE, [v]),
     "springs": lambda v: mdr.SpringArray.of(CASE, 16 + int(v / V_0)),
+    "random": lambda v: mdr.random_cof(CASE, BAND, [v], n_realisations=8),
+    "half-space": lambda v: mdr.half_space.slide(CASE, v, cells=9, steps_per_period=12, n_periods=1),
 }
 
 

@@ -34,6 +34,8 @@ MAKE = {
     "loop": lambda: mdr.tangential_loop(BALL, RUBBER, 0.4, 20e-6, 4e-6),
     "fields": lambda: mdr.surface_fields(pulled(), i=100),
     "springs": lambda: mdr.SpringArray.of(CASE),
+    "random": lambda: mdr.random_cof(CASE, mdr.Spectrum.band(2e-6, 50.0, 100.0), [V_0, 2 * V_0], n_realisations=8),
+    "half-space": lambda: mdr.half_space.slide(CASE, V_0, cells=9, steps_per_period=12, n_periods=1),
     "data": lambda: mdr.FrictionData(v_0=[1e-4, 2e-4, 4e-4], cof=[0.365, 0.388, 0.4], error=[0.01, 0.02, 0.01]),
 }
 

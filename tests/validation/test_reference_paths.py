@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from pages import DOCS
-from reference_steps import followed
 
 import mdr
 from validation import reference_paths, reference_springs
@@ -74,24 +73,6 @@ def test_a_ball_has_its_closed_forms():
     assert_allclose(back.F[:, 0], masing, rtol=0, atol=1e-11 * back.scale)
 
 
-def test_a_load_that_is_raised_leaves_the_force_and_then_the_first_curve_of_the_new_load():
-    """Mindlin and Deresiewicz 1953: from where the way has grown as much as mu_0 kappa times the depth has."""
-    path = PATHS["ball_load_raised"]
-    x, depth = path.u[:, 0], path.u[:, 2]
-    at_fixed = np.arange(12, 25)
-    assert_allclose(path.F[at_fixed, 0], path.F[12, 0], rtol=1e-12)
-    late = x - x[12] > 0.75 * (depth[-1] - depth[0])
-    assert late.sum() > 5
-    assert_allclose(path.F[late, 0], cattaneo(path, x[late], depth[-1]), rtol=0, atol=1e-11 * path.scale)
-
-
-def test_pressed_and_pulled_at_once_all_sticks_or_all_slips():
-    """With mu_0 kappa = 0.75: F_x = 0.8 mu_0 F_z, and mu_0 F_z, also where the load falls faster than the way."""
-    flat, steep = PATHS["ball_oblique"], PATHS["ball_oblique_steep"]
-    assert_allclose(flat.F[:21, 0], 0.8 * 0.5 * flat.F[:21, 2], rtol=0, atol=1e-11 * flat.scale)
-    assert_allclose(steep.F[:, 0], 0.5 * steep.F[:, 2], rtol=0, atol=1e-11 * steep.scale)
-
-
 def test_a_punch_that_turns_goes_on_a_tractrix():
     """Where it slips on a leg, half of the angle has a tangent that falls by exp(-way/leash)."""
     path = PATHS["punch_legs"]
@@ -104,36 +85,6 @@ def test_a_punch_that_turns_goes_on_a_tractrix():
         way = w[k] - w[k - 1]
         before, after = (np.tan(np.angle(n[i] / way) / 2) for i in (k - 1, k))
         assert after == pytest.approx(before * np.exp(-abs(way) / leash), rel=1e-9)
-
-
-def test_a_kelvin_ball_is_pulled_like_an_elastic_one_that_is_ahead():
-    """By tau times the velocity; at a held way the dashpots let go, and what did not slip keeps its extension."""
-    path = PATHS["ball_kelvin"]
-    v = path.u[12, 0] / path.t[12]
-    assert_allclose(
-        path.F[1:13, 0],
-        cattaneo(path, path.u[1:13, 0] + path.contact.tau * v, path.u[0, 2]),
-        rtol=0,
-        atol=1e-11 * path.scale,
-    )
-    assert np.ptp(path.F[13:25, 0]) == 0
-    assert path.F[13, 0] < path.F[12, 0]
-
-
-@each
-def test_explicit_steps_come_to_the_answer(path):
-    """Their error is of first order; that of the cells is below it."""
-    c, (cells, parts) = path.contact, (150, 60)
-    edge = c.radius(path.u[:, 2].max())
-    gap = np.zeros(1) if c.shape == "punch" else ((np.arange(cells) + 0.5) * edge / cells) ** 2 / c.size
-    arm = {"rho": [c.E_1 / c.E], "theta": [c.tau_1]} if c.E_1 else {}
-    units = 2 * c.E_star * edge * np.array([c.mu_0, c.mu_0, 1])
-    off = []
-    for n in (parts, 2 * parts):
-        F, _ = followed(gap, path.t, path.u, c.mu_0 * c.kappa, n, T=c.tau, **arm)
-        off.append(np.abs(F * units - path.F).max() / path.scale)
-    assert off[1] < max(0.65 * off[0], 3e-5)
-    assert off[1] < 3e-3
 
 
 # --- the library ---

@@ -172,15 +172,6 @@ def test_checks_json_has_exactly_the_promised_keys(tmp_path):
     }  # fmt: skip
 
 
-def test_a_quick_run_is_marked_and_a_full_one_is_not():
-    quick, full = (html_page([made_up_claim()], effort) for effort in ("quick", "full"))
-    assert "<title>QUICK Does" in quick
-    assert quick.index("<h1>") < quick.index("<b>QUICK</b>") < quick.index("critical velocity")
-    assert "QUICK" not in full
-    part = html_page([made_up_claim("mapping")])
-    assert f"<b>PART</b> {len(validation.CLAIMS) - 1} of the {len(validation.CLAIMS)} claims" in part
-
-
 LEAST = 3
 
 
@@ -293,13 +284,6 @@ def test_claims_that_raise_die_or_are_missing_leave_the_others_alone(claims, cap
     assert "ZeroDivisionError" in record["checks"][2]["why"]
     assert "ZeroDivisionError" in Path("out/index.html").read_text(encoding="utf-8")
     assert "Traceback" in capsys.readouterr().err
-
-
-def test_a_claim_carries_its_modules_name(claims, capsys):
-    claims("misnamed", one=(1.0, "pass"))
-    Path("misnamed/one.py").write_text(Path("misnamed/one.py").read_text().replace("'one'", "'two'"))
-    assert command.main(["--jobs", "1"], "misnamed") == 1
-    assert "must carry its module's name, got 'two'" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("argv", [["--only", "nothing"], ["--quick", "--long"], ["--jobs", "0"], ["--effort"]])

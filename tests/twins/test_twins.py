@@ -7,10 +7,10 @@ import math
 
 import numpy as np
 import pytest
-import reference
-import reference_turning
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
+from twins import rigid_pull as reference
+from twins import turning as twin
 
 FLAT = math.inf
 
@@ -58,25 +58,25 @@ FEW = {"steps": 4096, "count": 64}
 
 
 def rigid_body():
-    return reference_turning.Body(np.zeros(2), np.zeros(2), np.full(2, np.inf))
+    return twin.Body(np.zeros(2), np.zeros(2), np.full(2, np.inf))
 
 
 @pytest.mark.parametrize("depth", [0.7, 2.0])
 def test_what_turns_nowhere_is_what_is_shaken_along(depth):
     x_n = [1.5 * np.exp(0.7j)]
-    got = reference_turning.friction(FLAT, depth, [1.0], x_n, [], -0.4, KELVIN)
-    drag, press = reference_turning.spring(-depth, [1.0], x_n, KELVIN[0], -0.4)
+    got = twin.friction(FLAT, depth, [1.0], x_n, [], -0.4, KELVIN)
+    drag, press = twin.spring(-depth, [1.0], x_n, KELVIN[0], -0.4)
     assert abs(got.along - drag / press) < got.doubt < 1e-6
     assert got.across == 0
-    still = reference_turning.friction(2, depth, [1.0], [], [], 0.4, **FEW)
+    still = twin.friction(2, depth, [1.0], [], [], 0.4, **FEW)
     assert abs(still.along - reference.rigid_elastic_cof(2, depth, 0.4)) < still.doubt < 1e-5
 
 
 @pytest.mark.parametrize("yields", [False, True])
-@pytest.mark.parametrize("material", [reference_turning.ELASTIC, KELVIN, ARMS])
+@pytest.mark.parametrize("material", [twin.ELASTIC, KELVIN, ARMS])
 def test_no_direction_is_special(material, yields):
     """All that moves in the plane turned by an angle turns the forces, to rounding."""
-    twin, angle = reference_turning, 0.7
+    angle = 0.7
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     L = twin.Material(material[0], *(np.array(one) for one in material[1:]))
     row, motion = twin.springs(2, 0.8, (0.0, 1.8), 32), twin.motion_of([1.0], [0.5j, 0.2], [2.0, 0.3j], 0.5, 256)
@@ -114,6 +114,6 @@ def test_body_moved_both_ways_agrees_with_an_adaptive_integrator(depth):
             if stop > start:
                 q = solve_ivp(rate, (start, stop), q, args=(touches,), **knobs).y[:, -1]
     mean = (q[6:] - before) / (2 * np.pi * reference.mean_force(FLAT, depth, T))
-    got = reference_turning.friction(FLAT, depth, [1.0], [x_n], [y_n], v, (T, (), ()), *bodies)
+    got = twin.friction(FLAT, depth, [1.0], [x_n], [y_n], v, (T, (), ()), *bodies)
     assert_allclose([got.along, got.across], mean, rtol=0, atol=3e-7)  # steps that cut through kinks
     assert got.doubt < 3e-7

@@ -1,14 +1,14 @@
-"""Full slip beside its definition: random contacts, and the difference from reference_full_slip.py.
+"""Full slip beside its definition: random contacts, and the difference from twins/full_slip.py.
 
 Each class of body, elastic, Kelvin and with an arm, kept and lost, of up to three harmonics, shaken at the tool or at
-the pull. Over v_c or a tenth of the greatest rate of the depth, where the reference is known well enough.
+the pull. Over v_c or a tenth of the greatest rate of the depth, where the twin is known well enough.
 """
 
 import math
 
 import numpy as np
-import reference_full_slip as reference
 from conftest import SHAPES
+from twins import full_slip as twin
 
 import mdr
 
@@ -21,7 +21,7 @@ def series(rng, n, decay):
 
 
 def drawn(seed, body, arms):
-    """A contact, the numbers of the reference, the velocity these are in, and whether contact is kept."""
+    """A contact, the numbers of the twin, the velocity these are in, and whether contact is kept."""
     rng = np.random.default_rng(seed)
     shape, exponent = SHAPES[rng.choice(list(SHAPES))]
     n = int(rng.choice([1, 1, 2, 3]))
@@ -66,9 +66,9 @@ def drawn(seed, body, arms):
 
 
 def difference(case, numbers, unit, **grid):
-    """Of the library and the reference, and what the latter does not know; None where v_c is infinite."""
+    """Of the library and the twin, and what the latter does not know; None where v_c is infinite."""
     found = mdr.full_slip_critical_velocity(case) / unit
     if math.isinf(found):
         return None
-    v_c, unknown = reference.converged(*numbers, **grid)
-    return abs(found - v_c) / max(abs(v_c), 0.1 * np.abs(reference.rate(numbers[0])).sum()), unknown
+    v_c, unknown = twin.converged(*numbers, **grid)
+    return abs(found - v_c) / max(abs(v_c), 0.1 * np.abs(twin.rate(numbers[0])).sum()), unknown

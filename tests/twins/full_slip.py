@@ -1,9 +1,9 @@
 """Critical velocity in full slip in plain NumPy: any depth, elastic, Kelvin or with arms, on any body, g = x**exponent.
 
-Scaled as in reference.py: lengths in a unit of the depth, time as phase omega t, forces over the stiffness of a contact
-one unit deep, tangential lengths in mu_0 kappa units. Without arms the edge of the contact is the least chord of its
-definition, by search over a grid of flights; of a punch, and with arms, springs are followed in small steps, s never
-less than z - gap, and L[s] = 0 where it is more. The sum S of all s gives F = L[S]. The body moves by
+Scaled as in rigid_pull.py: lengths in a unit of the depth, time as phase omega t, forces over the stiffness of a
+contact one unit deep, tangential lengths in mu_0 kappa units. Without arms the edge of the contact is the least chord
+of its definition, by search over a grid of flights; of a punch, and with arms, springs are followed in small steps, s
+never less than z - gap, and L[s] = 0 where it is more. The sum S of all s gives F = L[S]. The body moves by
 M y'' + C y' + K y = -(F - mean F), harmonic by harmonic; without mass y' is what this equation says of y and F.
 """
 
@@ -141,11 +141,18 @@ def critical_velocity(Z, X, exponent, depth, T, arms, M, C, K, n_t, n):
     v_n[1 : len(X) + 1] -= rate(X)
     dense = np.fft.irfft(np.concatenate([v_n * fine / 2, np.zeros(fine // 2 + 1 - v_n.size)]), fine)
     if inside.all():
-        return dense.max()
+        return peak(dense)
     ends = crossings(row, inside, n_t) if not (arms or punch) else touches_of(ahead, inside, n_t)
     at = 2 * np.pi * np.arange(fine) / fine
     since, left = (np.mod(at[:, None] - one, 2 * np.pi).min(1) for one in ends)
     return max(dense[since <= left].max(), values(np.concatenate(ends)).max())
+
+
+def peak(values):
+    """Greatest of a smooth periodic function, by a parabola through the greatest of its values."""
+    k = int(np.argmax(values))
+    before, top, after = values[k - 1], values[k], values[(k + 1) % values.size]
+    return top + (after - before) ** 2 / (8 * (2 * top - before - after))
 
 
 def crossings(row, inside, n_t):
