@@ -563,3 +563,17 @@ def test_the_cof_across_is_told_and_written(tmp_path, capsys, across):
     assert [float(row[-1]) for row in rows] == pytest.approx([run["cof_y"]] * 2, abs=2e-3)
     assert float(rows[0][2]) == -float(rows[1][2])
     assert "cof_y [-]" in (tmp_path / "curve.csv").read_text(encoding="utf-8")
+
+
+def test_files_that_are_there_are_named_before_they_are_overwritten(capsys, punch, tmp_path, monkeypatch):
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
+    (tmp_path / "curve.csv").write_text("mine")
+    assert main(["curve", punch, "--points", "2", "-o", str(tmp_path)]) == 0
+    assert capsys.readouterr().err == f"mdr: will be overwritten: {tmp_path / 'curve.csv'}\n"
+    assert "mine" not in (tmp_path / "curve.csv").read_text(encoding="utf-8")
+
+
+def test_a_command_in_no_encoding_is_kept_all_the_same(punch, tmp_path):
+    folder = tmp_path / "m\udcff"
+    assert main(["curve", punch, "-o", str(folder), "--points", "2"]) == 0
+    assert "m\\udcff" in (folder / "curve.csv").read_text(encoding="utf-8")

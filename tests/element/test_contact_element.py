@@ -330,3 +330,24 @@ def test_a_viscous_step_needs_time():
         contact.step(contact.at_rest(GOOD), 0.0, GOOD)
     with pytest.raises(ValueError, match="u_z_max"):
         contact.at_rest((0, 0, 1.0))
+
+
+def test_the_tangent_of_stick_and_of_slip_in_closed_form():
+    flat, a = element(shape=mdr.FlatPunch(a=1e-3)), 1e-3
+    rest, k_x, k_z = flat.at_rest((0, 0, DEPTH / 2)), 2 * a * ELASTIC.G_star, 2 * a * ELASTIC.E_star
+    for x, known in ((0.1, np.diag([k_x, k_x, k_z])), (2.0, [[0, 0, MU_0 * k_z], [0, np.nan, 0], [0, 0, k_z]])):
+        K = flat.step(rest, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
+        known = np.array(known)
+        known[np.isnan(known)] = K[1, 1]
+        assert_allclose(K, known, rtol=0, atol=1e-8 * k_z)
+        assert 0 < K[1, 1] <= k_x * (1 + 1e-8)  # a slip that turns stiffens against it
+
+
+def test_where_springs_switch_the_tangent_looks_ahead():
+    """At rest in full slip: on the way of the slip nothing resists."""
+    flat = element(shape=mdr.FlatPunch(a=1e-3))
+    _, state = flat.step(flat.at_rest((0, 0, DEPTH / 2)), 0.0, (2 * REACH, 0, DEPTH / 2))
+    _, back = flat.step(state, 0.0, (-2 * REACH, 0, DEPTH / 2))
+    for slipped, x in ((state, 2), (back, -2)):
+        K = flat.step(slipped, 0.0, (x * REACH, 0, DEPTH / 2), tangent=True)[2]
+        assert abs(K[0, 0]) < 1e-8 * K[2, 2]

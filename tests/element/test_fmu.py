@@ -165,3 +165,29 @@ def test_its_sources_compile_without_a_warning(monkeypatch, unit):
     contact, _, _ = unit
     monkeypatch.setattr("mdr.element.fmu.FLAGS", (*FLAGS, "-Wall", "-Wextra", "-Werror"))
     assert library(sources(contact, "pin", "a pin"), "pin")
+
+
+def test_fmpy_simulates_it(unit):
+    contact, path, _ = unit
+    t = np.arange(31) * 1e-3
+    u = np.vstack([[0, 0, 0.5 * DEPTH], walk()])
+    steps = np.array(list(zip(t, *u.T, strict=True)), dtype=[(name, float) for name in ("time", "u_x", "u_y", "u_z")])
+    found = fmpy.simulate_fmu(str(path), stop_time=0.03, step_size=1e-3, output_interval=1e-3, input=steps,
+                              start_values={"u_z": 0.5 * DEPTH}, output=["F_x", "F_z"])  # fmt: skip
+    state = contact.at_rest((0, 0, 0.5 * DEPTH))
+    for k in range(30):  # in a step it goes to the input at its begin
+        G, state = contact.step(state, 1e-3, u[k])
+        assert_allclose([found["F_x"][k + 1], found["F_z"][k + 1]], G[[0, 2]], rtol=0, atol=1e-10)
+
+
+def test_a_state_that_is_set_while_it_is_initialised_is_that_state(unit):
+    _, _, instance = unit
+    one, us = instance(), walk()
+    forces = driven(one, us[:12])
+    kept = one.getFMUState()
+    one.reset()
+    one.setupExperiment(startTime=0.0)
+    one.enterInitializationMode()
+    one.setFMUState(kept)
+    assert_array_equal(one.getReal(F + LOST), forces[-1])
+    one.freeFMUState(kept)

@@ -1,5 +1,6 @@
 """Friction under a random depth: its bookkeeping against recorded motion, invariances, and what is refused."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -63,3 +64,28 @@ def test_a_contact_that_seldom_touches_has_numbers():
     assert 0 < never.sum() < 16
     assert np.all(found.realisations[~never] <= MU_0 + found.cof_error)  # a step less is extrapolated
     assert np.all(np.isfinite([found.cof, found.standard_error, found.cof_error]))
+
+
+@pytest.mark.parametrize("case", [PUNCH, BALL], ids=["punch", "ball"])
+def test_only_ratios_matter(case):
+    """Stiffer, larger and faster by any factor."""
+    found = mdr.random_cof(case, BAND, UNIT, n_realisations=8)
+    k, w = 50.0, 4.0  # of lengths, and of frequencies by a power of two, which keeps the steps
+    shape = mdr.FlatPunch(a=1e-2) if case is PUNCH else mdr.Paraboloid(R=1.0)
+    larger = mdr.SlidingContact(shape, mdr.Elastic(E=7e8, nu=0.5), MU_0, replace(STEADY, u_z0=k * DEPTH))
+    faster = mdr.Spectrum.band(k * 2e-6, w * 50.0, w * 100.0)
+    other = mdr.random_cof(larger, faster, k * w * UNIT, n_realisations=8)
+    assert_allclose(other.cof, found.cof, rtol=1e-9)
+
+
+def test_the_record_of_it():
+    found = mdr.random_cof(PUNCH, BAND, [UNIT, 2 * UNIT], n_realisations=8)
+    assert found == mdr.random_cof(PUNCH, BAND, [UNIT, 2 * UNIT], n_realisations=8) == pickle.loads(pickle.dumps(found))
+    assert str(found).startswith("RandomCof at 2 velocities")
+    assert "of 8 realisations" in str(found)
+    assert found.table().splitlines()[0] == "v_0 [m/s],cof [-],standard_error [-],cof_error [-]"
+    assert len(found.table().splitlines()) == 3
+    with pytest.raises(ValueError, match="read-only"):
+        found.cof[0] = 0
+    ax = found.plot()
+    assert found.plot(ax) is ax

@@ -255,3 +255,14 @@ def test_a_record_that_begins_with_a_lift_or_in_the_air_has_numbers_alone(shape)
             numbers = found.cof, found.cof_y, found.cof_error, found.energy_balance.lost
             assert np.all(np.isfinite([*numbers, *found.running_cof, *found.F_y]))
             assert found.running_cof[0] == 0
+
+
+def test_a_load_in_steps_that_are_short_for_a_dashpot_has_a_depth():
+    """A dashpot a thousand times stiffer than the spring: a depth, good to its last bit, misses the load by more."""
+    rng = np.random.default_rng(1)
+    for _ in range(10):
+        t = np.cumsum(10.0 ** rng.uniform(-6, -2, 20))
+        found = mdr.slide_record(
+            BALL, mdr.KelvinVoigt(E=3e6, nu=0.3, tau=3e-2), 0.5, t, 1e-3 * t, F_z=rng.uniform(0.01, 0.1, 20)
+        )
+        assert np.all(np.isfinite([*found.u_z, *found.F_z, found.cof]))

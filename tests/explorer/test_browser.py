@@ -104,6 +104,15 @@ def test_another_kind_brings_its_own_controls(browser):
     assert any("at rest, under a rigid pull" in line for line in browser.text("table"))
 
 
+def test_groups_are_held(browser):
+    browser.button("dimensionless groups")
+    browser.until(lambda: browser.find(named("slider", "alpha")))
+    alpha = browser.value("alpha")
+    browser.type("oscillation.u_z0", "30e-6")
+    browser.until(lambda: "u_z0=3e-05" in browser.state())
+    assert browser.value("alpha") == alpha
+
+
 def test_the_link_restores_the_state(browser):
     state, before = browser.state(), browser.curve()
     browser.type("mu_0", "0.3")
@@ -112,6 +121,13 @@ def test_the_link_restores_the_state(browser):
     assert browser.curve() == before
     browser.until(lambda: browser.state() == state)
     assert browser.find(named("slider", "alpha"))
+
+
+def test_a_wrong_link_is_refused_with_words(browser):
+    browser.open("?mu_0=-1&indenter.shape=%22Kone%22")
+    words = " ".join(browser.text(".refused"))
+    assert "did you mean Cone?" in words
+    assert "mu_0 must be positive" in words
 
 
 def test_the_case_is_downloaded_and_loaded_again(browser):

@@ -317,3 +317,28 @@ def test_the_example_gives_a_unit_to_every_number():
     values = [line for line in lines if re.match(r'\w+ = [^"]', line)]
     assert len(values) == len(GOOD.split(" = ")) - 3  # all but shape and model
     assert all("# [" in line for line in values)
+
+
+def test_another_quantity_is_refused_with_every_other_fault():
+    text = """
+        mu_0 = "1 N"
+        [indenter]
+        shape = "Cone"
+        theta_deg = "2 mm"
+        [material]
+        model = "Elastic"
+        E = "3 mm"
+        nu = 0.5
+        [oscillation]
+        frequency = "3 s"
+        u_z0 = "20 um"
+        du_z = "-2 um"
+    """
+    assert faults(text) == [
+        "[indenter] theta_deg wants deg (or °, rad), got '2 mm'",
+        "[material] E wants Pa (or kPa, MPa, GPa, N/mm2), got '3 mm'",
+        "[oscillation] frequency wants Hz (or mHz, kHz, MHz, rad/s), got '3 s'",
+        "[oscillation] du_z must be positive, got -2e-06 (amplitude of the depth in m; a depth that does "
+        "not oscillate is a ConstantDepth)",
+        "mu_0 wants a pure number, such as 0.1 or 10%, got '1 N'",
+    ]

@@ -298,3 +298,18 @@ def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():
     found = mdr.measure_critical_velocity(contact("flat", 10.0, 0.0, 0.5, math.sqrt(1 / 3)))
     assert 0 <= found.low <= found.v_c <= found.high <= 1.1e-4 * unit_of_velocity(contact("flat", 10.0))
     assert "not told from zero" in found.why
+
+
+def test_an_oscillation_that_takes_next_to_nothing_away_has_a_critical_velocity():
+    motion, pull = mdr.NormalOscillation(2e-5, 2e-10, 300.0), mdr.SpringPull(2e4, 0.02, 4.0)
+    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.5), 0.5, motion, pull)
+    found = mdr.measure_critical_velocity(case)
+    assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_a_curved_contact_on_a_whole_multiple_has_no_critical_velocity(n):
+    """The n-th harmonic of its force drives the undamped body; Eq. (15) is finite and false."""
+    verdict = mdr.verdict(contact("paraboloid", 3.0, 0.0, 1.5, float(n)))
+    assert (verdict.measured, verdict.holds, verdict.full_slip) == (None, False, math.inf)
+    assert "a harmonic of the normal force drives the body" in verdict.why

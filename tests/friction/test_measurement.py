@@ -193,3 +193,18 @@ def test_a_body_thrown_for_an_instant_has_no_resonance(world):
     assert told.full_slip == math.inf
     assert (told.measured, told.holds) == (None, None)
     assert str(told).startswith("Eq. (15) cannot be judged: no critical velocity was found, against ")
+
+
+def test_stick_that_no_finer_step_lets_end_has_no_v_c(world):
+    coarse = default_steps(CASE)
+    world(lambda start, steps, _: 0.83 if steps <= coarse else 1e9)
+    assert mdr.measure_critical_velocity(CASE).kind == "none"
+
+
+def test_a_formula_at_its_pole_is_infinite_where_runs_find_a_velocity(world, monkeypatch):
+    world(lambda *_: 3.0)
+    monkeypatch.setattr("mdr.friction.verdict.critical_velocity", lambda case: math.inf)
+    told = mdr.verdict(CASE)
+    assert str(told).startswith(f"Eq. (15) is infinite here; use {told.measured:.4g} m/s. Measured in runs")
+    assert "%" not in str(told)
+    assert (told.good, told.deviation, told.holds) == (None, None, False)

@@ -268,3 +268,12 @@ def test_what_cancels_is_zero_and_no_rounding(material, load):
         case = mdr.SlidingContact(mdr.Paraboloid(5e-3), material, 0.4, load, shake=shake)
         band = mdr.holding_band(case)
         assert (band.low, band.high, mdr.blocked_cof(case)) == (0.0, 0.0, 0.0)
+
+
+def test_contact_lost_on_an_elastic_face_is_exact():
+    """The greatest slip rate stands at the instant of touch, arccos(1/3) before the deepest point."""
+    ball, depth = SHAPES["paraboloid"][0], mdr.NormalOscillation(-5e-6, 15e-6, OMEGA)
+    case = mdr.SlidingContact(ball, RUBBER, MU_0, depth, shake=mdr.InPlaneOscillation(OMEGA, 1e-5, 2.0))
+    touch = -math.acos(1 / 3)
+    rate = MU_0 * RUBBER.mindlin_ratio * OMEGA * 15e-6 * -math.sin(touch) - OMEGA * 1e-5 * math.sin(touch + 2.0)
+    assert mdr.full_slip_critical_velocity(case, -1) == pytest.approx(rate, rel=1e-10)

@@ -127,3 +127,8 @@ def test_a_step_that_does_not_converge_stops_the_run():
             lambda q: BODY.displacement(q, (X, Y), (X, Y)),
             np.ones((2, 6, 6)), np.ones((6, 6)), np.zeros((2, 6, 6)), 0, most=1,
         )  # fmt: skip
+
+
+def test_work_is_the_same_both_ways():
+    one, two = np.random.default_rng(1).normal(size=(2, 3, 6, 6))
+    assert_allclose(np.sum(one * BODY.displacement(two)), np.sum(two * BODY.displacement(one)), rtol=1e-13)

@@ -179,3 +179,8 @@ def test_a_step_that_does_not_converge_has_its_own_error(monkeypatch):
     monkeypatch.setattr(friction, "contact_of", lambda *given: replace(contact_of(*given), turns=1))
     with pytest.raises(NotConverged, match="in 1 turns"):
         slide(BALL, 1e-4, **FEW)
+
+
+def test_both_starts_end_alike(found):
+    rest = slide(ACROSS, 0.3 * UNIT, start="rest", **FEW)
+    assert_allclose(found.cof, rest.cof, atol=found.cycle_error + rest.cycle_error)

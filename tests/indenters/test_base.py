@@ -175,3 +175,14 @@ def test_a_shape_of_ones_own_needs_one_profile():
     assert_allclose(Bump().profile_3d(r), Paraboloid(5e-3).profile_3d(r), rtol=MAP)
     with pytest.raises(TypeError, match="no shape yet"):
         type("Nothing", (Indenter,), {})
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=name)
+def test_generic_quadrature_agrees_with_closed_forms(shape):
+    d = 2e-5
+    a = float(shape.contact_radius(d))
+    r, n = discs(a), 4
+    p = Indenter.pressure_inside(shape, r, np.full(n, a), np.full(n, d))
+    assert_allclose(E_STAR * p, shape.pressure(r, d, E_STAR), rtol=MAP)
+    # the area is the lesser part of d a wherever a face is flat, and counts as that in the force
+    assert_allclose(Indenter._area(shape, np.array(a)), shape.profile_area(a), rtol=EXACT, atol=EXACT * d * a)

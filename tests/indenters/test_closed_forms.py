@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from catalogue import KINKED, SLOPES, THETA, WORN, B, R, end, name
+from catalogue import A_0, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, name
 from numpy.testing import assert_allclose
 
 import mdr
@@ -124,3 +124,15 @@ def test_the_cap_of_a_cone():
         assert shape.kinks == (B,)
         below, above = shape.profile_1d(B * np.array([1 - 1e-15, 1 + 1e-15]))
         assert_allclose(above, below, rtol=1e-6, atol=1e-10)  # a root of 1e-15 at a corner
+
+
+def test_a_constant_pressure():
+    shape = mdr.ConstantPressure(A_0, D_0)
+    assert shape.contact_radius(D_0) == A_0
+    r = A_0 * np.array([0, 0.3, 0.9, 0.999999])
+    assert_allclose(shape.pressure(r, D_0, 2e6), 2e6 * D_0 / (2 * A_0), rtol=EXACT)
+    assert_allclose(shape.force(D_0, 2e6), np.pi / 2 * 2e6 * A_0 * D_0, rtol=EXACT)
+    u = np.array([0.69, 0.71])  # on both sides of where its f changes from a mean to the elliptic integral
+    sine = np.sin(np.pi * (np.arange(99) + 0.5) / 99)
+    direct = 1 - np.mean(np.sqrt(1 - (u[:, None] * sine) ** 2), axis=1)
+    assert_allclose(shape.profile_3d(u * A_0), D_0 * direct, rtol=EXACT)

@@ -1,5 +1,7 @@
 """Shapes from measured points: as good as their splines say, or refused with the reason."""
 
+import contextlib
+
 import numpy as np
 import pytest
 from catalogue import THETA, B, R
@@ -100,3 +102,13 @@ def test_what_lies_beyond_the_points_is_unknown():
         shape.force(1.01 * deepest, 1)
     with pytest.raises(ValueError, match=r"SampledProfile ends at r = 0.002 m, got 0.0021 m"):
         shape.profile_1d(2.1e-3)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", [1e-300, 1e-200, 1e200, 1e300])
+@pytest.mark.parametrize("reach", [1e-300, 1e-200, 1e200, 1e300])
+def test_sizes_beyond_all_others_are_answered_or_refused(scale, reach):
+    r = np.linspace(0, 1, 20)
+    with contextlib.suppress(ValueError):
+        shape = mdr.SampledProfile(reach * r, scale * r**2)
+        assert shape.profile_3d(reach) == pytest.approx(scale)

@@ -145,3 +145,36 @@ def test_a_class_with_all_its_closed_forms_is_taken(n):
     assert Power().force(d, E_STAR)[-1] > 0
     assert np.all(Power().stiffness([-1e-5, 0.0, 1e-5], E_STAR) >= 0)
     assert Power().force(2e-5, E_STAR) > 0
+
+
+def noisy_force(seed, smoothing):
+    """A made-up tip, 100 points with noise of 1e-7 N, smoothed by this share of it."""
+    d = 0.6e-9 * np.arange(100)
+    F = 240 * d + 1.5e9 * d**2 + np.append(0, np.random.default_rng(seed).normal(0, 1e-7, 99))
+    keep = (F > 0) | (d == 0)
+    return lambda: mdr.FromForce(d[keep], F[keep], E_star=1e10, smoothing=smoothing * 1e-7)
+
+
+@pytest.mark.parametrize("smoothing", [0.01, 0.1, 0.5, 1.2])
+def test_a_noisy_force_is_a_shape_or_refused(smoothing):
+    told = []
+    for seed in range(12):
+        try:
+            tip = noisy_force(seed, smoothing)()
+        except ValueError as refused:
+            words = re.search(r"F must rise more and more steeply, but .* d = .*e-\d+ m.*smoothing=", str(refused))
+            told.append(words is not None)
+            continue
+        d = np.linspace(1e-12, tip.d[-1], 3000)
+        a = tip.contact_radius(d)
+        assert np.all(np.isfinite(a) & (a > 0))
+        assert np.all(np.diff(a) >= -1e-6 * a.max())
+    assert all(told)
+
+
+def test_a_dip_as_narrow_as_a_thousandth_is_found():
+    profile = mdr.Profile(lambda r: r**2 / R - 1e-7 * (np.exp(-(((r - 5e-4) / 1e-6) ** 2))))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        with pytest.raises(ValueError, match=r"annular contact.* falls at x = 0\.000(49|50)"):
+            profile.contact_radius(4e-4)

@@ -234,3 +234,10 @@ def test_a_pushed_body_is_a_matrix_exponential():
         move = expm(np.array([[0, 1, 0, 0], [-k, -c, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]]))
         expected = [move[0, 1], move[0, 2], move[0, 3], move[0, 0], move[1, 1]]
         assert_allclose(pushed(c, k), expected, rtol=0, atol=1e-14)
+
+
+def test_a_pushed_body_in_treacle_creeps_and_one_on_a_stiff_spring_rings():
+    assert_allclose(pushed(1e12, 0.0), [1e-12, 1e-12, 0.5e-12, 1.0, 0.0], rtol=1e-11, atol=1e-20)
+    w = 1e3  # way sin(w)/w, and what is left of its integrals
+    expected = [np.sin(w) / w, (1 - np.cos(w)) / w**2, (1 - np.sin(w) / w) / w**2, np.cos(w), np.cos(w)]
+    assert_allclose(pushed(0.0, w**2), expected, rtol=0, atol=1e-14)

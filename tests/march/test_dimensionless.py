@@ -178,3 +178,14 @@ def test_rest_is_rest():
     assert not start.e.any()
     assert not Stepper(scaled_of("paraboloid"), v).rest().body.any()
     assert not scaled_of("paraboloid").full_slip.state().any()
+
+
+def test_body_groups_are_those_of_the_oscillator():
+    case = contact("paraboloid", 3.0, 0.5, 0.7, 1.6, 0.15)
+    scaled = ScaledContact.of(case, mdr.SpringArray.of(case, 32), STEPS, lump=False)
+    omega, unit = case.oscillation.omega, scaled.units.stiffness_x
+    assert_allclose(
+        [scaled.body.M, scaled.body.C, scaled.body.K],
+        np.array([case.pull.m * omega**2, case.pull.c_x * omega, case.pull.k_x]) / unit,
+    )
+    assert_allclose(math.sqrt(scaled.body.K / scaled.body.M), 1.6, rtol=1e-13)

@@ -52,3 +52,10 @@ def test_a_motion_as_harmonic_of_a_lower_frequency_is_the_same(n):
     one, other = (mdr.slide(each, 0.4 * unit_of_velocity(case)) for each in (case, replace(case, oscillation=motion)))
     assert other.steps_per_period == n * one.steps_per_period
     assert_allclose(other.cof, one.cof, rtol=TOLERANCE)
+
+
+def test_E_does_not_drop_out_of_a_given_spring():
+    """With k_x and m in SI the groups change with E: the invariance above is no triviality."""
+    soft = contact("paraboloid", 2.5, **BODY)
+    hard = replace(soft, material=replace(soft.material, E=1.3 * soft.material.E))
+    assert abs(cof(soft, 0.5) - cof(hard, 0.5)) > 1e-3

@@ -401,3 +401,39 @@ def test_an_array_too_large_to_be_kept_is_that_of_any_other_run():
     few, many = (mdr.slide(case, 0.4 * unit_of_velocity(case), n_springs=n, **knobs) for n in (8192, 8193))
     assert many.n_springs == 8193
     assert many.cof == pytest.approx(few.cof, abs=1e-8)
+
+
+@on_all
+def test_records_have_their_shapes(case):
+    run = coarse(case, 0.43, record=2)
+    n_t, n_x = 2 * 256, 96
+    for name in ("t", "u_x", "u_z", "F_x", "F_z"):
+        assert getattr(run, name).shape == (n_t,), name
+    assert run.x.shape == (n_x,)
+    assert run.e.shape == run.state.shape == (n_t, n_x)
+    assert run.state.dtype == np.uint8
+    assert set(np.unique(run.state)) <= set(State)
+    assert_allclose(run.t[-1], 12 * case.oscillation.period, rtol=1e-14)
+    assert_allclose(np.diff(run.t), case.oscillation.period / 256, rtol=1e-9)  # a difference of t, so rtol 1e-16 n_t
+    assert_allclose(run.u_z, case.oscillation.u_z(run.t), rtol=0, atol=1e-12 * abs(case.u_z_max))
+    assert np.all(np.diff(run.x) > 0)
+    nothing = coarse(case, 0.43)
+    assert all(getattr(nothing, name) is None for name in RECORDS)
+
+
+@pytest.mark.parametrize("name", ["rigid elastic", "rigid Kelvin", "flat, contact lost", "body elastic", "body Kelvin"])
+@pytest.mark.parametrize("v_hat", [0.3, 0.8])
+def test_the_start_is_forgotten(name, v_hat):
+    knobs = {"n_springs": 96, "steps_per_period": 256}
+    full_slip, rest = (run_at(CONTACTS[name], v_hat, start=start, **knobs) for start in ("full_slip", "rest"))
+    assert full_slip.settled
+    assert rest.settled
+    # a settled run is settled to 1e-6 of mu_0, either of them
+    assert_allclose(rest.cof, full_slip.cof, rtol=0, atol=2e-6 * rest.mu_0)
+
+
+def test_a_start_from_rest_is_not_settled_before_the_springs_are_stretched():
+    case = contact("cone", 1e8)
+    run = mdr.slide(case, 0.5 * unit_of_velocity(case), start="rest")
+    assert not run.settled
+    assert "periods to stretch the springs" in run.why

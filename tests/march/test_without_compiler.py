@@ -12,7 +12,7 @@ import pytest
 import small_runs
 from numpy.testing import assert_allclose
 
-from mdr.march.dynamics.loop import SHORTEST
+from mdr.march.dynamics.loop import SHORTEST_PART
 
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
@@ -28,7 +28,7 @@ def test_small_runs_come_to_the_same_in_python():
         scale = np.nanmax(np.abs(expected[name]))
         # the compiler may contract and reorder, and springs with arms stop 1e-13 of their size short of their period
         # on these steps a body is light, and it is a matter of roundings whether one in which a spring touches within
-        # SHORTEST of an end is cut there
+        # SHORTEST_PART of an end is cut there
         # intervals of springs are halved for the force, which roundings decide, and the share of stick is not looked at
-        close = 10 * SHORTEST if "body" in name else 1e-5 if "share of stick" in name else 1e-10
+        close = 10 * SHORTEST_PART if "body" in name else 1e-5 if "share of stick" in name else 1e-10
         assert_allclose(numbers, expected[name], rtol=0, atol=close * scale, err_msg=name)

@@ -124,3 +124,13 @@ def test_a_shape_that_ends_is_held_as_far_as_it_reaches():
         case_at(case, {"load": near, "hold": "load"})
     with pytest.raises(ValueError, match=r"deeper|radius|reach"):
         case_at(case, {"load": less})
+
+
+def test_a_fit_holds_the_mean_load():
+    said = case_of(HELD | {"oscillation": HELD["oscillation"] | {"du_z": 7e-6}})
+    truth = case_at(said.case, {**said.held, "material.E": 2.5e9})
+    v_0 = mdr.critical_velocity(truth) * np.array([0.02, 0.1, 0.3, 0.6])
+    data = mdr.FrictionData(v_0=v_0, cof=mdr.cof_curve(truth, v_0).cof)
+    found = mdr.fit(said.case, data, ["E"], held=said.held)
+    assert_allclose(found.values["E"], 2.5e9, rtol=1e-4)
+    assert_allclose(mean_normal_force(found.case), 5.0, rtol=1e-9)

@@ -6,6 +6,7 @@ from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import N_STEPS, normal_cycle
 from validation.full_slip import full_slip
 
@@ -38,3 +39,16 @@ def test_two_touches_a_period_are_seen():
     case = mdr.SlidingContact(mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.4), 0.4, motion)
     found = normal_cycle(case.indenter, case.rheology, case.cycle, 512, 64).touches
     assert_allclose(np.sort(found), [0.75 * np.pi, 1.75 * np.pi], rtol=0, atol=1.01 * 2 * np.pi / 512)
+
+
+@pytest.mark.parametrize("theta", [0.3, 30.0, 3000.0])
+@pytest.mark.parametrize("depth_ratio", [1.0, -0.2])
+def test_arms_are_in_their_periodic_state_however_slow(theta, depth_ratio):
+    # the mean of every arm over a period is zero, so the mean force is that of the mean compression, E_inf alone
+    case = contact("paraboloid", depth_ratio)
+    rheology = Rheology(0.0, (3.0,), (theta,))
+    coarse, fine = (normal_cycle(case.indenter, rheology, case.cycle, n, 128) for n in (1024, 4096))
+    assert_allclose(coarse.F_N.mean(), fine.F_N.mean(), rtol=1e-4)
+    # an arm far slower than the period gives a mean support: the surface stands lower where the indenter leaves it
+    assert fine.F_N.min() >= -1e-18
+    assert fine.F_N.max() > 0

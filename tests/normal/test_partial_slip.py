@@ -1,5 +1,7 @@
 """A pull at fixed depth: Cattaneo-Mindlin, Mindlin-Deresiewicz, and springs that stick and slip one by one."""
 
+import math
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -78,3 +80,16 @@ def test_a_way_beyond_all_others_is_full_slip_or_refused():
     for mu_0, U in ((1e300, 1e200), (MU_0, 1e308)):
         with pytest.raises(ValueError, match=r"a loop of u_x = 1e\+\d+ m is beyond the range of floats"):
             tangential_loop(cone, BODY, mu_0, DEPTH, U)
+
+
+def test_hertz_is_cattaneo_and_mindlin():
+    R = 5e-3
+    a, F_N = math.sqrt(R * DEPTH), 4 / 3 * BODY.E_star * math.sqrt(R) * DEPTH**1.5
+    share = np.array([0.0, 0.3, 0.9, 1.0])
+    u_x = (
+        3 * MU_0 * F_N / (4 * BODY.G_star * a) * (1 - (1 - share) ** (2 / 3))
+    )  # 1/G* = (2 - nu)/(4 G): 3/16 (2 - nu)/G
+    pulled = partial_slip(mdr.Paraboloid(R=R), BODY, MU_0, DEPTH, u_x)
+    assert_allclose(pulled.F_z, F_N, rtol=1e-13)
+    assert_allclose(pulled.F_x, share * MU_0 * F_N, rtol=1e-12, atol=1e-13 * F_N)
+    assert_allclose(pulled.stick_radius, a * (1 - share) ** (1 / 3), rtol=1e-9, atol=1e-5 * a)  # a root at full slip

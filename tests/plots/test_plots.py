@@ -266,3 +266,8 @@ def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():
     assert_allclose(np.concatenate(drawn), 0.1 / 0.5)
     assert legend_texts(ax) == ["static limit", "across the pull"]
     assert legend_texts(plots.plot_curve(made_up_curve(cof_y=np.full(6, 1e-6)))) == ["static limit"]
+
+
+def test_modes_follow_the_library():
+    State = pytest.importorskip("mdr").State
+    assert [name for name, _ in plots.MODES] == [State(i).name.lower().replace("_", " ") for i in range(4)]

@@ -160,3 +160,16 @@ def test_a_parabola_that_begins_below_zero_by_a_rounding_and_falls_has_its_zero_
     t, a, b, c, tol = 0.1, -2e-15, 1e-9, -1e-2, 4e-15
     ends = Ends(a, b, a + t * (b + c * t), b + 2 * c * t, 2 * c, 2 * c)
     assert zero_of_parabola.py_func(ends, t, tol, a, b, c) == 0.0
+
+
+@every_material
+def test_the_normal_part_may_be_cut_into_two(material):
+    for one in rows(material):
+        s, area, moment, _ = one.pressed()
+        half = 0.5 * one.h
+        first = Row(material, one.path, half, one.gap, one.s, one.e, one.w)
+        s_1, a_1, m_1, _ = first.pressed()
+        second = Row(material, one.from_then(half), half, one.gap, s_1, one.e, one.w)
+        s_2, a_2, m_2, _ = second.pressed()
+        assert_allclose(s_2, s, rtol=0, atol=1e-11)
+        assert_allclose([a_1 + a_2, m_1 + m_2 + half * a_2], [area, moment], rtol=0, atol=1e-11)

@@ -101,3 +101,17 @@ def test_nothing_inside_speaks(capsys, monkeypatch):
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
     compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), range(1))
     assert capsys.readouterr().err == ""
+
+
+def test_values_are_those_of_direct_calls():
+    axes = {"v_0/v_c": [0.0, 0.5, 1.1], "indenter": SHAPES, "T": [0.1, 1.0]}
+    study = mdr.sweep(RIGID, axes, quantities=["cof", "stick_share", "v_c", "mean_F_N"])
+    assert study.shape == (3, 3, 2)
+    for i, shape in enumerate(SHAPES):
+        for j, T in enumerate(axes["T"]):
+            case = replace(RIGID, indenter=shape, material=replace(RIGID.material, tau=T / 300.0))
+            curve = mdr.cof_curve(case, np.array(axes["v_0/v_c"]) * mdr.critical_velocity(case))
+            assert_array_equal(study["cof"][:, i, j], curve.cof)
+            assert_array_equal(study["stick_share"][:, i, j], curve.stick_share)
+            assert_array_equal(study["v_c"][:, i, j], mdr.critical_velocity(case))
+    assert study.count(Status.DONE) == 18

@@ -252,3 +252,22 @@ def test_what_cannot_be_told_by_its_data_is_refused_in_a_store_alone(tmp_path, s
     assert not (tmp_path / "store").exists()
     found = small(None, **options)
     assert (found.complete, found.identity) == (True, "")
+
+
+def test_two_may_merge_at_once(part_done, monkeypatch):
+    """The other has merged and cleared away, as a leftover, the very file that this one was about to move in."""
+    small(part_done)
+    data, real = (part_done / "study.nc").read_bytes(), os.replace
+    monkeypatch.setattr(os, "replace", lambda partial, path: (os.unlink(partial), real(partial, path)))
+    Store(part_done).merge(data)
+    (part_done / "study.nc").unlink()
+    with pytest.raises(mdr.studies.StudyError, match=r"study.nc cannot be written \(No such file"):
+        Store(part_done).merge(data)
+
+
+def test_a_file_in_the_place_of_the_folder(tmp_path):
+    (tmp_path / "store").write_text("")
+    with pytest.raises(mdr.studies.StudyError, match="is a file; give a folder for the store"):
+        small(tmp_path / "store")
+    with pytest.raises(mdr.studies.StudyError, match=r"store/inside: study.json cannot be written"):
+        small(tmp_path / "store" / "inside")

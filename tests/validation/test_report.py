@@ -313,3 +313,12 @@ def test_the_longest_claim_begins_first_and_the_page_keeps_its_order(claims):
     record = json.loads(Path("report/checks.json").read_text(encoding="utf-8"))
     assert [claim["name"] for claim in record["claims"]] == ["one", "resonances"]
     assert set(command.LONGEST) <= set(validation.CLAIMS)
+
+
+def test_a_quick_run_is_marked_and_a_full_one_is_not():
+    quick, full = (html_page([made_up_claim()], effort) for effort in ("quick", "full"))
+    assert "<title>QUICK Does" in quick
+    assert quick.index("<h1>") < quick.index("<b>QUICK</b>") < quick.index("critical velocity")
+    assert "QUICK" not in full
+    part = html_page([made_up_claim("mapping")])
+    assert f"<b>PART</b> {len(validation.CLAIMS) - 1} of the {len(validation.CLAIMS)} claims" in part
