@@ -117,9 +117,10 @@ def table_of(text: str, source: str, columns: Sequence[Column], *, units: Words 
 
 def csv_text(columns: Mapping[str, Any]) -> str:
     """A header of names, and a line for each row of columns of one length; numbers read back as they were."""
-    told = [[one if isinstance(one, str) else f"{one:.17g}" for one in column] for column in columns.values()]
-    lines = [",".join(row) for row in zip(*told, strict=True)]
-    return "\n".join([",".join(columns), *lines]) + "\n"
+    told = [(one if isinstance(one, str) else f"{one:.17g}" for one in column) for column in columns.values()]
+    out = StringIO()
+    csv.writer(out, lineterminator="\n").writerows([columns, *zip(*told, strict=True)])
+    return out.getvalue()
 
 
 def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
