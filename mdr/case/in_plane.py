@@ -79,19 +79,13 @@ class InPlaneOscillation(Shake):
     """
 
     omega: float = field(metadata=FREQUENCY)
-    du_x: float = field(
-        default=0.0,
-        metadata=facts(
-            "m", "amplitude along the pull", not_negative, label=r"longitudinal amplitude $\Delta u_x$", example=1e-5
-        ),
-    )
+    du_x: float = field(default=0.0, metadata=facts("m", "amplitude along the pull", not_negative, example=1e-5,
+                                                    label=r"longitudinal amplitude $\Delta u_x$"))  # fmt: skip
     phi_x: float = field(
         default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$", example=1.5707963)
     )
-    du_y: float = field(
-        default=0.0,
-        metadata=facts("m", "amplitude across the pull", not_negative, label=r"transverse amplitude $\Delta u_y$"),
-    )
+    du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull", not_negative,
+                                                    label=r"transverse amplitude $\Delta u_y$"))  # fmt: skip
     phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_y$"))
     at: str = field(default="tool", metadata=PLACE)
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from mdr.files.case_files import record_of
-from mdr.files.measurements import LIKELY_MODULUS, Words, read_table
+from mdr.files.measurements import LIKELY_MODULUS, read_table
 from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals
 from mdr.files.toml_text import parse_toml, read_text, tried
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Table, warn_of_size
+from mdr.tools.csv_table import Table, Words, warn_of_size
 from mdr.tools.messages import short
 
 #: moduli in Pa, shear moduli in Pa, or shares of the instantaneous modulus

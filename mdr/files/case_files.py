@@ -115,7 +115,7 @@ class Tables(NamedTuple):
     parts: dict[str, Any]  #: a record each
     above: dict[str, Any]  #: the fields of the contact as a whole
     held: dict[str, Any]  #: load [N], with hold, and tan_delta [-], for fields that other tables decide about too
-    of_tables: dict[str, list[str]]  #: faults by table
+    unsound: set[str]  #: tables with faults
     faults: list[str]  #: names that are none, then those of tables
     refused: list[str]  #: of the fields of the contact as a whole
 
@@ -126,26 +126,20 @@ def read_tables(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Table
     if "axes" in content:
         raise CaseFileError(STUDY)
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in TOP]
-    parts, held, of_tables = _read_parts(content)
-    faults += [fault for found in of_tables.values() for fault in found]
+    tables = {**_meant(content), **content}
+    tables |= {"oscillation": _still(tables["oscillation"])} if {"shake", "oscillation"} <= set(tables) else {}
+    asked = [name for name in _TABLES if name in tables or name in HARMLESS]
+    described = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
+    sound = {name: found for name, (found, wrong) in described.items() if not wrong}
+    held = {key: value for _, own in sound.values() for key, value in own.items()}
+    faults += [fault for _, wrong in described.values() for fault in wrong]
     own = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
     read = {key: tried(_number_at, key, value, TOP[key]) for key, value in own.items()}
     given = {key: value for key, (value, unread) in read.items() if not unread}
     refused = [fault for _, unread in read.values() for fault in unread]
     refused += _field_faults(SlidingContact, {**HARMLESS, **given}, {}, read)
-    return Tables(parts, given, held, of_tables, faults, refused)
-
-
-def _read_parts(content: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any], dict[str, list[str]]]:
-    """The parts that sound tables describe, what is held for their fields, and the faults of the other tables."""
-    tables = {**_meant(content), **content}
-    tables |= {"oscillation": _still(tables["oscillation"])} if {"shake", "oscillation"} <= set(tables) else {}
-    asked = [name for name in _TABLES if name in tables or name in HARMLESS]
-    read = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
-    sound = {name: found for name, (found, faults) in read.items() if not faults}
     parts = {name: part for name, (part, _) in sound.items()}
-    held = {key: value for _, own in sound.values() for key, value in own.items()}
-    return parts, held, {name: faults for name, (_, faults) in read.items() if faults}
+    return Tables(parts, given, held, described.keys() - sound.keys(), faults, refused)
 
 
 def _still(table: Any) -> Any:
@@ -299,14 +293,11 @@ class _Table:
 
 
 _TABLES = {
-    table.name: table
-    for table in (
-        _Table("indenter", "shape", indenters),
-        _Table("material", "model", materials),
-        _Table("oscillation", "motion", motion, motion.UNNAMED),
-        _Table("pull", "", pull, (SpringPull,)),
-        _Table("shake", "motion", in_plane, in_plane.UNNAMED),
-    )
+    "indenter": _Table("indenter", "shape", indenters),
+    "material": _Table("material", "model", materials),
+    "oscillation": _Table("oscillation", "motion", motion, motion.UNNAMED),
+    "pull": _Table("pull", "", pull, (SpringPull,)),
+    "shake": _Table("shake", "motion", in_plane, in_plane.UNNAMED),
 }
 #: what [oscillation] is beside a [shake] if it says no more than this
 _ALONE = {"ConstantLoad": {"load", "F_z0"}, "ConstantDepth": {"u_z0"}}

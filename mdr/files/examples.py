@@ -43,12 +43,8 @@ SHAKES: dict[str, in_plane.Shake] = _examples(in_plane)
 STILL = "none"  #: the name of no shake
 #: what each part can be
 PARTS: dict[str, dict[str, Any]] = {
-    "indenter": SHAPES,
-    "material": MATERIALS,
-    "oscillation": MOTIONS,
-    "pull": PULLS,
-    "shake": {STILL: None, **SHAKES},
-}
+    "indenter": SHAPES, "material": MATERIALS, "oscillation": MOTIONS, "pull": PULLS, "shake": {STILL: None, **SHAKES},
+}  # fmt: skip
 
 
 def example(

@@ -20,11 +20,9 @@ from mdr.materials.prony_fit import ONE, TOLD, twice
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite
 from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Table, table_of
+from mdr.tools.csv_table import Table, Words, table_of
 from mdr.tools.notation import GRAVITY, ZEROS
 from mdr.tools.warned import warn_outside
-
-Words = Mapping[str, str] | None
 
 LIKELY_MODULUS = (200.0, 2e12)  #: [Pa], from soft gels to beyond diamond
 FASTEST = (0.0, 1e7)  #: acceleration [m/s²], of 100 µm at 50 kHz
@@ -37,16 +35,12 @@ FORCE = (
     Column("d", ("depth", "indentation", "displacement"), "m", likely=(1e-12, 0.1)),
     Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", likely=(0.0, 1e6)),
 )
+TAN_DELTA = ("tan(delta)", "tan δ", "tan(δ)", "loss tangent", "loss factor", "damping")
 MODULI = (
     Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s"),
     Column("storage", ("E'", "storage modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("loss", ("E''", "loss modulus"), "Pa", needed=False),
-    Column(
-        "tan_delta",
-        ("tan(delta)", "tan δ", "tan(δ)", "loss tangent", "loss factor", "damping"),
-        needed=False,
-        likely=(0.0, 5.0),
-    ),
+    Column("tan_delta", TAN_DELTA, needed=False, likely=(0.0, 5.0)),
     Column("G'", ("shear storage modulus",), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("G''", ("shear loss modulus",), "Pa", needed=False),
     Column("T", ("temperature", "temp"), "K", needed=False, likely=(100.0, 2000.0)),

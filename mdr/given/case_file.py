@@ -127,7 +127,7 @@ def stand_in(content: Mapping[str, Any], beside: Sequence[str]) -> tuple[Sliding
     To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
     """
     said = read_tables(content, beside)
-    return tried(contact_of, {**HARMLESS, **said.parts}, {"mu_0": 1.0, **said.held})[0], set(said.of_tables)
+    return tried(contact_of, {**HARMLESS, **said.parts}, {"mu_0": 1.0, **said.held})[0], said.unsound
 
 
 def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapping[str, Any]) -> None:

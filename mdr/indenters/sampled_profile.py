@@ -22,6 +22,8 @@ from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 NOISE = "standard deviation of the noise of the data"
+RADII = tuple(round(2e-4 * i, 9) for i in range(8))  #: of the example [m]
+HEIGHTS = tuple(round(4e-7 * i**2, 9) for i in range(8))  #: of a paraboloid [m]
 
 
 def column(name: str, values: Any, unit: str) -> tuple[float, ...]:
@@ -67,14 +69,8 @@ class SampledProfile(Indenter):
     0.000316 m, 0.000316 m
     """
 
-    r: tuple[float, ...] = field(
-        metadata=facts(
-            "m", "radii of the points", column, note="m", example=tuple(round(2e-4 * i, 9) for i in range(8))
-        )
-    )
-    f: tuple[float, ...] = field(
-        metadata=facts("m", "heights at them", column, note="m", example=tuple(round(4e-7 * i**2, 9) for i in range(8)))
-    )
+    r: tuple[float, ...] = field(metadata=facts("m", "radii of the points", column, note="m", example=RADII))
+    f: tuple[float, ...] = field(metadata=facts("m", "heights at them", column, note="m", example=HEIGHTS))
     tip: str = field(default="round", kw_only=True, metadata=facts("", "round or sharp", _tip))
     kinks: tuple[float, ...] = field(
         default=(), kw_only=True, metadata=facts("m", "radii of points at which the slope jumps", radii)

@@ -7,13 +7,13 @@ texts. The bytes follow from the study alone.
 
 from __future__ import annotations
 
-import csv
 import json
-from io import BytesIO, StringIO
+from io import BytesIO
 from typing import Any, TypeAlias
 
 import numpy as np
 
+from mdr.tools.csv_table import csv_text
 from mdr.tools.status import Status
 
 Study: TypeAlias = Any  #: read by attribute
@@ -51,17 +51,13 @@ def packed(study: Study, history: str = "") -> bytes:
 
 def table(study: Study) -> str:
     """CSV, one row for each point: the axes, the quantities, status and reason; numbers with all their digits."""
-    grid, out = study.grid, StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    named = [(axis.path, axis.unit) for axis in grid]
-    named += [(column.name, column.unit) for column in study.columns]
-    writer.writerow([*(f"{name} [{unit}]" if unit else name for name, unit in named), "status", "why"])
-    values = study.values.reshape(len(study.columns), -1).T.tolist()
-    ends = zip(study.status.ravel().tolist(), np.ravel(study.why).tolist(), strict=True)
-    for where, numbers, (status, why) in zip(np.ndindex(study.shape), values, ends, strict=True):
-        coordinates = [axis.told(i) for axis, i in zip(grid, where, strict=True)]
-        writer.writerow([*coordinates, *map(repr, numbers), Status(status).name.lower(), why])
-    return out.getvalue()
+    places = np.indices(study.shape).reshape(len(study.grid), study.status.size)
+    columns = {(axis.path, axis.unit): map(axis.told, at) for axis, at in zip(study.grid, places, strict=True)}
+    for column, values in zip(study.columns, study.values, strict=True):
+        columns[column.name, column.unit] = map(repr, values.ravel().tolist())
+    headed = {f"{name} [{unit}]" if unit else name: values for (name, unit), values in columns.items()}
+    ends = (Status(status).name.lower() for status in study.status.ravel().tolist())
+    return csv_text({**headed, "status": ends, "why": np.ravel(study.why).tolist()})
 
 
 # --- writing NetCDF ---

@@ -28,6 +28,8 @@ from mdr.tools.messages import short
 from mdr.tools.notation import UNITS, converted, is_number, number_in, scale_of, shown
 from mdr.tools.warned import warn_outside
 
+Words = Mapping[str, str] | None  #: by columns
+
 
 class Tabled:
     """Base of records that write themselves as CSV, or as a data frame; they answer `table()`."""
@@ -86,14 +88,7 @@ class Table(NamedTuple):
         return self.fault(f"the header names {name}: {self.header}; write {example}{self.hint}")
 
 
-def table_of(
-    text: str,
-    source: str,
-    columns: Sequence[Column],
-    *,
-    units: Mapping[str, str] | None = None,
-    called: Mapping[str, str] | None = None,
-) -> Table:
+def table_of(text: str, source: str, columns: Sequence[Column], *, units: Words = None, called: Words = None) -> Table:
     """The columns in a text; `units` of columns whose header has none, and what a file has `called` them."""
     names = [column.name for column in columns]
     _require_known("units", units, names)
@@ -122,9 +117,10 @@ def table_of(
 
 def csv_text(columns: Mapping[str, Any]) -> str:
     """A header of names, and a line for each row of columns of one length; numbers read back as they were."""
-    told = [[one if isinstance(one, str) else f"{one:.17g}" for one in column] for column in columns.values()]
-    lines = [",".join(row) for row in zip(*told, strict=True)]
-    return "\n".join([",".join(columns), *lines]) + "\n"
+    told = [(one if isinstance(one, str) else f"{one:.17g}" for one in column) for column in columns.values()]
+    out = StringIO()
+    csv.writer(out, lineterminator="\n").writerows([columns, *zip(*told, strict=True)])
+    return out.getvalue()
 
 
 def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
@@ -223,7 +219,7 @@ def warn_of_size(name: str, greatest: float, likely: tuple[float, float], unit: 
         warn_outside(f"{name} is at most {shown(greatest, unit)}, {limit}: is the unit right?")
 
 
-def _require_known(name: str, given: Mapping[str, str] | None, known: Sequence[str]) -> None:
+def _require_known(name: str, given: Words, known: Sequence[str]) -> None:
     if given is None:
         return
     if not isinstance(given, Mapping) or not all(isinstance(one, str) for pair in given.items() for one in pair):
