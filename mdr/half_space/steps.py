@@ -106,12 +106,18 @@ class Contact:
         return replace(end, slip=np.where(end.pressure > 0, slip, 0.0))
 
     def step(
-        self, state: Step, depth: float, moved: Array, dt: float, guess: Array | None = None, tolerance: float = 0.0
+        self,
+        state: Step,
+        depth: float,
+        moved: Array,
+        dt: float,
+        guess: Array | None = None,
+        tolerance: float | None = None,
     ) -> Step:
         """The state after one step in which the indenter moves by `moved` (2,) [m]. Raises NotConverged.
 
         guess: tractions (3, n, n) from which on those at the end of the step are looked for; None takes the first ones.
-        tolerance: in the place of that of the contact, unless it is zero.
+        tolerance: in the place of that of the contact.
         """
         theta, moved = self.tau / dt, np.asarray(moved)[:, None, None]
         before = state.displacement

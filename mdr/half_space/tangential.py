@@ -4,30 +4,38 @@ Minimises q C q/2 - q c over |q| <= b cell by cell. With c the displacement that
 what the indenter slips over the surface, backwards: zero where |q| < b, and along q where |q| = b, which is Coulomb's
 law.
 
-Projected Newton steps (normal.py), with discs for bounds: cells inside their disc move freely, cells on its rim along
-it, where the curvature of the rim adds what the surplus traction would do.
+Projected Newton steps: cells inside their disc move freely, cells on its rim along it, where the curvature of the rim
+adds what the surplus traction would do; each step is a system that conjugate gradients solve, followed by projection
+on the discs and a line search on the energy (Bertsekas, SIAM J. Control Optim. 20 (1982) 221, with discs for bounds).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.half_space.normal import NotConverged, Product, coarse, conjugate_gradients, searched
+from mdr.half_space.normal import NotConverged
 from mdr.tools.arrays import EPS, Array
 
 
 def traction(
-    product: Product, c: Array, bound: Array, start: Array, tolerance: float, most: int = 200, stiff: float = 0.0
+    product: Callable[[Array], Array],
+    c: Array,
+    bound: Array,
+    start: Array,
+    tolerance: float,
+    most: int = 200,
+    stiff: float | None = None,
 ) -> Array:
     """The tractions (2, n, n) that satisfy Coulomb's law, and are zero where the bound (n, n) is.
 
     Converged when no cell can be improved by more than tolerance times the greatest bound, in units of traction.
-    Raises NotConverged after `most` Newton steps. stiff: `stiffness_of` the product, 0 where it is not known.
+    Raises NotConverged after `most` Newton steps. stiff: `stiffness_of` the product, where it is known.
     """
-    stiff = stiff or stiffness_of(product, c)
+    stiff = stiffness_of(product, c) if stiff is None else stiff
     scale = float(np.max(bound))
     if scale == 0:
         return np.zeros_like(c)
@@ -38,14 +46,14 @@ def traction(
         off = np.hypot(*(q - _into_discs(q - stiff * gradient, bound)))
         if np.max(off) <= tolerance * scale:
             return q
-        step = _newton(
-            product, gradient, _rim(q, gradient, bound), bound > 0, stiff, coarse(np.max(off), tolerance * scale)
-        )
-        q, image = searched(product, q, image, c, step, lambda free: _into_discs(free, bound))
+        # coarsely: the step is only a direction, which the line search shortens
+        close = max(1e-2, 0.1 * tolerance * scale / float(np.max(off)))
+        step = _newton(product, gradient, _rim(q, gradient, bound), bound > 0, stiff, close)
+        q, image = _searched(product, q, image, c, step, bound)
     raise NotConverged(f"friction is off by {np.max(off) / scale:.1e} of its bound after {most} steps")
 
 
-def stiffness_of(product: Product, like: Array) -> float:
+def stiffness_of(product: Callable[[Array], Array], like: Array) -> float:
     """Traction on one cell per displacement of it."""
     one = np.zeros_like(like)
     one[0, like.shape[1] // 2, like.shape[2] // 2] = 1.0
@@ -76,7 +84,9 @@ def _rim(q: Array, gradient: Array, bound: Array) -> Rim:
     return Rim(stays, np.where(stays, outward / np.where(bound > 0, bound, 1.0), 0.0), normal)
 
 
-def _newton(product: Product, gradient: Array, rim: Rim, alive: NDArray[np.bool_], stiff: float, close: float) -> Array:
+def _newton(
+    product: Callable[[Array], Array], gradient: Array, rim: Rim, alive: NDArray[np.bool_], stiff: float, close: float
+) -> Array:
     """The step along free directions: conjugate gradients on the projected system, scaled by its diagonal."""
     inside, across = alive.astype(float), np.where(rim.stays, rim.normal, 0.0)
     scaling = inside / (1 / stiff + rim.curvature)
@@ -88,4 +98,37 @@ def _newton(product: Product, gradient: Array, rim: Rim, alive: NDArray[np.bool_
         out -= across * along
         return out
 
-    return conjugate_gradients(product, gradient, free, rim.curvature, scaling, close)
+    left = -free(gradient)
+    step, direction, before = np.zeros_like(left), np.zeros_like(left), np.inf
+    enough = close * float(np.linalg.norm(left))
+    for _ in range(1000):  # steps of conjugate gradients
+        if np.linalg.norm(left) <= enough:
+            break
+        scaled = scaling * left
+        norm = float(np.vdot(left, scaled))
+        direction = scaled + norm / before * direction
+        before = norm
+        image = free(product(direction)) + rim.curvature * direction
+        along = norm / float(np.vdot(direction, image))
+        step += along * direction
+        left -= along * image
+    return step
+
+
+def _searched(
+    product: Callable[[Array], Array], q: Array, image: Array, c: Array, step: Array, bound: Array
+) -> tuple[Array, Array]:
+    """The point along the projected step where the energy has fallen enough."""
+    energy = 0.5 * float(np.sum(q * image)) - float(np.sum(q * c))
+    gradient = image - c
+    length = 1.0
+    for _ in range(30):
+        new = _into_discs(q + length * step, bound)
+        move = new - q
+        fall = float(np.sum(gradient * move))
+        new_image = product(new)
+        new_energy = 0.5 * float(np.sum(new * new_image)) - float(np.sum(new * c))
+        if new_energy <= energy + 1e-4 * fall or abs(fall) <= 1e-15 * abs(energy):
+            return new, new_image
+        length /= 2
+    return new, new_image
