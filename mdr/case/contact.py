@@ -31,8 +31,12 @@ from mdr.tools.summary import Row, Summarised, Summary, number
 
 #: abstract base class of each part
 KINDS: dict[str, type[Any]] = {
-    "indenter": Indenter, "material": Material, "oscillation": Motion, "pull": Pull, "shake": Shake,
-}  # fmt: skip
+    "indenter": Indenter,
+    "material": Material,
+    "oscillation": Motion,
+    "pull": Pull,
+    "shake": Shake,
+}
 OPTIONAL = ("shake",)  #: parts that may be None
 
 
@@ -56,8 +60,11 @@ class SlidingContact(Summarised):
 
     indenter: Indenter = field(metadata=facts("", "shape", rule=None))
     material: Material = field(metadata=facts("", "half-space", rule=None))
-    mu_0: float = field(metadata=facts("-", "local coefficient of friction", label=r"local friction $\mu_0$",
-                                       note="coefficient of friction"))  # fmt: skip
+    mu_0: float = field(
+        metadata=facts(
+            "-", "local coefficient of friction", label=r"local friction $\mu_0$", note="coefficient of friction"
+        )
+    )
     oscillation: Motion = field(metadata=facts("", "normal motion", rule=None))
     pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
     shake: Shake | None = field(default=None, metadata=facts("", "motion in the plane besides the pull", rule=None))

@@ -79,13 +79,19 @@ class InPlaneOscillation(Shake):
     """
 
     omega: float = field(metadata=FREQUENCY)
-    du_x: float = field(default=0.0, metadata=facts("m", "amplitude along the pull", not_negative, example=1e-5,
-                                                    label=r"longitudinal amplitude $\Delta u_x$"))  # fmt: skip
+    du_x: float = field(
+        default=0.0,
+        metadata=facts(
+            "m", "amplitude along the pull", not_negative, example=1e-5, label=r"longitudinal amplitude $\Delta u_x$"
+        ),
+    )
     phi_x: float = field(
         default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_x$", example=1.5707963)
     )
-    du_y: float = field(default=0.0, metadata=facts("m", "amplitude across the pull", not_negative,
-                                                    label=r"transverse amplitude $\Delta u_y$"))  # fmt: skip
+    du_y: float = field(
+        default=0.0,
+        metadata=facts("m", "amplitude across the pull", not_negative, label=r"transverse amplitude $\Delta u_y$"),
+    )
     phi_y: float = field(default=0.0, metadata=facts("rad", "its phase", finite, label=r"phase $\varphi_y$"))
     at: str = field(default="tool", metadata=PLACE)
 

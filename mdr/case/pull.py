@@ -105,14 +105,23 @@ class RigidPull(Pull):
 class SpringPull(Pull):
     """A mass pulled through a spring, Fig. 2 of the paper; m = 0 is a quasi-static body."""
 
-    k_x: float = field(metadata=facts("N/m", "stiffness of the system spring", label="system stiffness $k_x$",
-                                      note=STIFFNESS, example=2e4))  # fmt: skip
-    m: float = field(default=0.0, metadata=facts("kg", "sliding mass", not_negative, label="mass $m$",
-                                                 note="mass in kg", example=0.1))  # fmt: skip
-    c_x: float = field(default=0.0, metadata=facts("N s/m", "damping of the system", not_negative,
-                                                   label="system damping $c_x$", example=4.0))  # fmt: skip
-    k_y: float | None = field(default=None, metadata=facts("N/m", "stiffness across the pull; none guides the body",
-                                                           _or_none, label="stiffness $k_y$"))  # fmt: skip
+    k_x: float = field(
+        metadata=facts(
+            "N/m", "stiffness of the system spring", label="system stiffness $k_x$", note=STIFFNESS, example=2e4
+        )
+    )
+    m: float = field(
+        default=0.0,
+        metadata=facts("kg", "sliding mass", not_negative, label="mass $m$", note="mass in kg", example=0.1),
+    )
+    c_x: float = field(
+        default=0.0,
+        metadata=facts("N s/m", "damping of the system", not_negative, label="system damping $c_x$", example=4.0),
+    )
+    k_y: float | None = field(
+        default=None,
+        metadata=facts("N/m", "stiffness across the pull; none guides the body", _or_none, label="stiffness $k_y$"),
+    )
     c_y: float | None = field(
         default=None, metadata=facts("N s/m", "damping across the pull", _or_none, label="damping $c_y$")
     )

@@ -80,9 +80,17 @@ def eq_7(mu_0: float, u_z0: float, du_z: float, omega: float, k_zc: float, gamma
 
 @_finite
 def eq_10(
-    t: Any, v_0: float, mu_0: float, u_z0: float, du_z: float, omega: float,
-    k_zc: float, gamma_zc: float, k_x: float, m: float,
-) -> Any:  # fmt: skip
+    t: Any,
+    v_0: float,
+    mu_0: float,
+    u_z0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    gamma_zc: float,
+    k_x: float,
+    m: float,
+) -> Any:
     """Position u_x(t) [m] of the body in full slip, Eq. (10).
 
     The particular solution of Eq. (8); a free oscillation of the body may ride on it, as friction does not damp it in
@@ -109,9 +117,18 @@ def eq_12(t: Any, mu_0: float, u_z0: float, du_z: float, omega: float, mindlin_r
 
 @_finite
 def eq_13(
-    t: Any, v_0: float, mu_0: float, u_z0: float, du_z: float, omega: float,
-    k_zc: float, gamma_zc: float, mindlin_ratio: float, k_x: float, m: float,
-) -> Any:  # fmt: skip
+    t: Any,
+    v_0: float,
+    mu_0: float,
+    u_z0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    gamma_zc: float,
+    mindlin_ratio: float,
+    k_x: float,
+    m: float,
+) -> Any:
     """Position u_xc(t) [m] of the foot in full slip, Eq. (13): Eq. (10) less Eq. (12)."""
     body = eq_10(t, v_0, mu_0, u_z0, du_z, omega, k_zc, gamma_zc, k_x, m)
     return body - eq_12(t, mu_0, u_z0, du_z, omega, mindlin_ratio)
@@ -119,9 +136,17 @@ def eq_13(
 
 @_finite
 def eq_14(
-    t: Any, v_0: float, mu_0: float, du_z: float, omega: float,
-    k_zc: float, gamma_zc: float, mindlin_ratio: float, k_x: float, m: float,
-) -> Any:  # fmt: skip
+    t: Any,
+    v_0: float,
+    mu_0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    gamma_zc: float,
+    mindlin_ratio: float,
+    k_x: float,
+    m: float,
+) -> Any:
     """Velocity of the foot [m/s] in full slip, Eq. (14), second line. Slip stops where it would turn negative. Holds as
     Eq. (10) does.
     """
@@ -163,9 +188,16 @@ def eq_2(mu_0: float, du_z: float, omega: float, k_zc: float, k_xc: float, k_x: 
 
 @_finite
 def eq_15(
-    mu_0: float, du_z: float, omega: float,
-    k_zc: float, k_xc: float, gamma_zc: float, k_x: float, m: float, c_x: float = 0.0,
-) -> float:  # fmt: skip
+    mu_0: float,
+    du_z: float,
+    omega: float,
+    k_zc: float,
+    k_xc: float,
+    gamma_zc: float,
+    k_x: float,
+    m: float,
+    c_x: float = 0.0,
+) -> float:
     """Pulling velocity [m/s] above which the oscillation no longer lowers friction, Eq. (15).
 
     Eq. (2) is its limit gamma_zc -> 0 and Eq. (1) its limit k_x -> infinity. The system damper c_x extends it: k_x

@@ -133,8 +133,16 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     m = k_x / natural**2
     reach = case.mu_0 * kappa * depth
     sizes = {
-        "u_z0": depth, "du_z": small * depth, "F_z0": load, "dF_z": small * load, "m_z": k_zc / natural**2,
-        "tau": small / case.omega, "k_x": k_x, "m": m, "c_x": 2 * small * float(np.sqrt(k_x * m)),
-        "du_x": reach / 2, "du_y": reach / 2,
-    }  # fmt: skip
+        "u_z0": depth,
+        "du_z": small * depth,
+        "F_z0": load,
+        "dF_z": small * load,
+        "m_z": k_zc / natural**2,
+        "tau": small / case.omega,
+        "k_x": k_x,
+        "m": m,
+        "c_x": 2 * small * float(np.sqrt(k_x * m)),
+        "du_x": reach / 2,
+        "du_y": reach / 2,
+    }
     return {name: float(f"{size:.2g}") for name, size in sizes.items()} | {"omega": case.omega}

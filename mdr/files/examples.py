@@ -43,8 +43,12 @@ SHAKES: dict[str, in_plane.Shake] = _examples(in_plane)
 STILL = "none"  #: the name of no shake
 #: what each part can be
 PARTS: dict[str, dict[str, Any]] = {
-    "indenter": SHAPES, "material": MATERIALS, "oscillation": MOTIONS, "pull": PULLS, "shake": {STILL: None, **SHAKES},
-}  # fmt: skip
+    "indenter": SHAPES,
+    "material": MATERIALS,
+    "oscillation": MOTIONS,
+    "pull": PULLS,
+    "shake": {STILL: None, **SHAKES},
+}
 
 
 def example(

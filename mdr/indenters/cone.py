@@ -18,8 +18,13 @@ def _slope_angle(name: str, value: Any, note: str = "") -> float:
     return between(name, value, 0, np.pi / 2, note)
 
 
-FLANK = facts("rad", "angle between flank and plane", _slope_angle, example=0.0127,
-              note="angle between flank and plane in rad; 45 degrees are 0.785")  # fmt: skip
+FLANK = facts(
+    "rad",
+    "angle between flank and plane",
+    _slope_angle,
+    example=0.0127,
+    note="angle between flank and plane in rad; 45 degrees are 0.785",
+)
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,16 @@ class KelvinVoigt(OneBody):
 
     E: float = field(metadata=facts("Pa", "long-time Young's modulus", note="Young's modulus in Pa", example=3e6))
     nu: float = field(metadata=POISSON)
-    tau: float = field(metadata=facts("s", "relaxation time gamma/k", not_negative, label=r"relaxation time $\tau$",
-                                      note="relaxation time in s", example=1e-3))  # fmt: skip
+    tau: float = field(
+        metadata=facts(
+            "s",
+            "relaxation time gamma/k",
+            not_negative,
+            label=r"relaxation time $\tau$",
+            note="relaxation time in s",
+            example=1e-3,
+        )
+    )
 
     @classmethod
     def from_shear(cls, *, G: float, eta: float, nu: float) -> KelvinVoigt:

@@ -17,9 +17,23 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "COLOURS", "MODES", "around", "edges_of", "periods_of", "plot_curve", "plot_fit", "plot_forces", "plot_profile",
-    "plot_run", "plot_spring_map", "plot_spring_maps", "plot_traces", "prefix", "save", "style",
-]  # fmt: skip
+    "COLOURS",
+    "MODES",
+    "around",
+    "edges_of",
+    "periods_of",
+    "plot_curve",
+    "plot_fit",
+    "plot_forces",
+    "plot_profile",
+    "plot_run",
+    "plot_spring_map",
+    "plot_spring_maps",
+    "plot_traces",
+    "prefix",
+    "save",
+    "style",
+]
 
 #: Okabe and Ito (2008): distinct to colour-blind readers, and dark enough on white
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#555555")

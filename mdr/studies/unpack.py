@@ -38,12 +38,17 @@ def _study(file: Any) -> Study:
         if name not in apart
     )
     return Study(
-        grid, columns,
-        case=_text(file, "case"), version=_text(file, "mdr_version"), identity=_text(file, "identity"),
+        grid,
+        columns,
+        case=_text(file, "case"),
+        version=_text(file, "mdr_version"),
+        identity=_text(file, "identity"),
         selected=tuple((path, told) for path, told in json.loads(_text(file, "selected") or "[]")),
         values=np.stack([_native(variables[column.name], "f8") for column in columns]),
-        status=_native(status, "u1"), reason=_native(variables["reason"], "i4"), reasons=_texts(variables["reasons"]),
-    )  # fmt: skip
+        status=_native(status, "u1"),
+        reason=_native(variables["reason"], "i4"),
+        reasons=_texts(variables["reasons"]),
+    )
 
 
 def _axis(variable: Any) -> Axis:
