@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.element.contact_element import ContactElement
-from mdr.tools.checks import FieldError
 from mdr.tools.version import __version__
 
 WIDTH = 120  #: of a line of numbers
@@ -48,7 +47,7 @@ def header(element: ContactElement, name: str, told: str) -> str:
     row, law = element._row, element._row.law
     if law.arms is not None:
         what = "an elastic or a Kelvin material can be exported, not one with Maxwell arms"
-        raise FieldError(f"{what}, got {element.material}: use element.step or element.address", "material")
+        raise ValueError(f"{what}, got {element.material}: use element.step or element.address")
     values = {word: named(one if law.T > 0 else other, name) for word, (one, other) in OF_DASHPOT.items()}
     values |= {
         "NAME": name,

@@ -27,7 +27,7 @@ from mdr.normal.spring_grid import Depths, nodes
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import FieldError, count, finite_array, instance, not_negative, positive, real_array
+from mdr.tools.checks import count, finite_array, instance, not_negative, positive, real_array
 from mdr.tools.fields import Record, check_fields, facts
 
 NO_TANGENT = np.empty((0, 3, 3))
@@ -176,7 +176,7 @@ class ContactElement(Record):
         """
         states, us = self._states(state), self._positions(u)
         if us.shape[:-1] != states.shape[:-1]:
-            raise FieldError(f"u must have the shape {(*states.shape[:-1], 3)} of this state, got {us.shape}", "u")
+            raise ValueError(f"u must have the shape {(*states.shape[:-1], 3)} of this state, got {us.shape}")
         dt, h = not_negative("dt", dt, "length of a step in s"), 1.0
         if self._is_viscous:
             h = positive("dt", dt, "length of a step in s; the force of a viscous contact depends on it")
@@ -188,7 +188,7 @@ class ContactElement(Record):
             if wrong == BEYOND:
                 what = "force, work or springs are beyond the range of floats"
                 raise ValueError(f"{what}: dt = {dt:g} s is too short, or u too far away")
-            raise FieldError(FAULTS[wrong], "state")
+            raise ValueError(FAULTS[wrong])
         return (F.reshape(us.shape), answer, K.reshape(*us.shape, 3)) if tangent else (F.reshape(us.shape), answer)
 
     def stored(self, state: ArrayLike) -> Array:
@@ -259,7 +259,7 @@ class ContactElement(Record):
         states = real_array("state", state)
         if states.ndim not in (1, 2) or states.shape[-1] != self.n_state:
             what = f"state must have the shape ({self.n_state},) or (m, {self.n_state}) of this element"
-            raise FieldError(f"{what}, got {states.shape}: {TAKE}", "state")
+            raise ValueError(f"{what}, got {states.shape}: {TAKE}")
         return states
 
     def _checked(self, state: ArrayLike) -> Array:
@@ -267,16 +267,16 @@ class ContactElement(Record):
         states = self._states(state)
         for one in states.reshape(-1, self.n_state):
             if wrong := fault(np.ascontiguousarray(one), self._row, self._mark):
-                raise FieldError(FAULTS[wrong], "state")
+                raise ValueError(FAULTS[wrong])
         return states
 
     def _positions(self, u: ArrayLike) -> Array:
         us = finite_array("u", u, "m")
         if us.ndim not in (1, 2) or us.shape[-1] != 3:
-            raise FieldError(f"u must have the shape (3,) or (m, 3), x, y and depth z in m, got {us.shape}", "u")
+            raise ValueError(f"u must have the shape (3,) or (m, 3), x, y and depth z in m, got {us.shape}")
         deepest = float(us[..., 2].max(initial=0.0))
         if not deepest <= self.u_z_max * (1 + SAME):
-            raise FieldError(f"u_z = {deepest:.6g} m is deeper than u_z_max = {self.u_z_max:.6g} m: raise u_z_max", "u")
+            raise ValueError(f"u_z = {deepest:.6g} m is deeper than u_z_max = {self.u_z_max:.6g} m: raise u_z_max")
         return us
 
 

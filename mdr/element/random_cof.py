@@ -21,7 +21,7 @@ from mdr.element.contact_element import springs_of
 from mdr.element.kernels import SpringRow, follow
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import EXACT, SAME, Array
-from mdr.tools.checks import FieldError, count, instance, positive_array
+from mdr.tools.checks import count, instance, positive_array
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
@@ -155,7 +155,7 @@ def random_cof(
     instance("spectrum", spectrum, Spectrum)
     velocities = np.array(positive_array("v_0", v_0, "m/s"), ndmin=1)
     if velocities.ndim != 1 or not velocities.size:
-        raise FieldError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}", "v_0")
+        raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
     n, seed = count("n_realisations", n_realisations, LEAST_REALISATIONS), count("seed", seed, 0)
     springs = SPRINGS if n_springs is None else count("n_springs", n_springs, 2 * MIN_SPRINGS)
     drawn = _drawn(case, spectrum, float(velocities.min()))

@@ -20,7 +20,7 @@ from mdr.materials.base import Material
 from mdr.normal.load_control import static_depths
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import EXACT, SAME, Array
-from mdr.tools.checks import FieldError, count, finite_array, instance, instants, positive
+from mdr.tools.checks import count, finite_array, instance, instants, positive
 from mdr.tools.companions import Companion, bound
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import Ticker
@@ -190,8 +190,8 @@ def slide_record(
         depth = _static(indenter, material, load)
     deepest, least = float(depth.max()), float(depth.min())
     if not deepest > 0:
-        raise FieldError(
-            f"the indenter never touches: the greatest depth is {deepest:.6g} m", "u_z" if F_z is None else "F_z"
+        raise ValueError(
+            f"{'u_z' if F_z is None else 'F_z'}: the indenter never touches, the greatest depth is {deepest:.6g} m"
         )
     least = least if SAME * deepest < least < (1 - SAME) * deepest and material.tau == 0 else 0.0
     motion = _Motion(t, x, y if np.ptp(y) > 0 else None, depth, load)
@@ -291,9 +291,9 @@ def _stored(row: SpringRow, s: Array, e: Array) -> float:
 def _static(indenter: Indenter, material: Material, load: Array) -> Array:
     """Depths [m] at which loads would rest."""
     if not np.all(load >= 0):
-        raise FieldError(f"F_z must not be negative, got {load.min():.6g} N: nothing pulls at the indenter", "F_z")
+        raise ValueError(f"F_z must not be negative, got {load.min():.6g} N: nothing pulls at the indenter")
     if not material.E_star > 0:
-        raise FieldError("E_inf = 0: under a load such a half-space flows without end", "material")
+        raise ValueError("E_inf = 0: under a load such a half-space flows without end")
     depth = np.zeros(load.shape)
     if load.any():
         depth[load > 0] = static_depths(indenter, material.E_star, load[load > 0])
@@ -304,5 +304,5 @@ def _samples(name: str, values: ArrayLike, t: Array, unit: str) -> Array:
     """A record of one quantity; a number is one that stays."""
     samples = finite_array(name, values, unit)
     if samples.ndim and samples.shape != t.shape:
-        raise FieldError(f"{name} must have the shape {t.shape} of t, got {samples.shape}", name)
+        raise ValueError(f"{name} must have the shape {t.shape} of t, got {samples.shape}")
     return np.array(np.broadcast_to(samples, t.shape))

@@ -1,10 +1,14 @@
 """One spring over one step of time, in contact or in flight: its normal motion, in which friction has no part.
 
-In a step the top of the spring moves on parabolas, z_1 t + z_2 t² down and x_1 t + x_2 t² in the plane. With the
-compression s, the extension e and the law L of the material (law.py) a spring
+The indenter carries the springs: the top of each moves with it, its foot touches the plane. In a step the top moves on
+parabolas, z_1 t + z_2 t² down and x_1 t + x_2 t² in the plane. With the compression s, the extension e and the law L of
+the material (law.py) a spring
 
 * *presses*: s goes with the top, until its force L[s] comes to zero;
-* *flies*: s and e relax with nothing to hold them, until the indenter meets the surface, z - gap = s.
+* *flies*: s and e recover without force, L[s] = L[e] = 0, until the indenter meets the surface again, z - gap = s.
+
+All is scaled: forces by the long-time stiffness, tangential lengths by mu_0 kappa, so that Coulomb's law is
+|L[e]| <= L[s].
 
 While it presses, friction moves e: a function of a stretch of contact that is handed in (line.py, disc.py), or None.
 What happens is exact from event to event, so that the only error of a step is that of the parabolas. Elastic springs,
@@ -35,15 +39,16 @@ MOST_EVENTS = 100  #: of a spring in one step or stretch of contact; what comes 
 class Answer(NamedTuple):
     """Answer of a row of springs to a step: sums over the springs, each weighted by its share of the stiffness.
 
-    Forces and their moments about the begin of the step are numbers along a line, vectors in the plane.
+    The area of a force is its integral over the time, an impulse, and its moment the integral of f t, with t from the
+    start of the step. Tangential ones are numbers along a line, vectors in the plane.
     """
 
-    area: complex  #: of the tangential force over the time
-    moment: complex
+    area: complex  #: integral of the tangential force over the step
+    moment: complex  #: its moment in time
     end: complex  #: the force at the end
-    stuck: float  #: time in stick
-    stuck_moment: float  #: its moment
-    sticking: float  #: share that sticks at the end
+    stuck: float  #: time in stick, averaged over the springs
+    stuck_moment: float  #: integral of t over it
+    sticking: float  #: share of the stiffness that sticks at the end
     back: float  #: share that slips back there
     normal_area: float  #: of the normal force
     normal_moment: float
@@ -55,18 +60,18 @@ class Friction(NamedTuple):
     """Friction over a stretch of contact."""
 
     mode: int  #: at its end
-    n: complex  #: direction of the force there, where the spring slips
+    n: complex  #: direction of the tangential force there, a unit vector or ±1, where the spring slips
     vel: float  #: slip velocity there, where it is asked for
-    area: complex  #: of the tangential force over the stretch
-    moment: complex  #: about the begin of the step
+    area: complex  #: integral of the tangential force over the stretch
+    moment: complex  #: its moment in time, from the start of the step
     stuck: float  #: time in stick
-    stuck_moment: float  #: its moment
+    stuck_moment: float  #: integral of t over it
     normal_area: float
     normal_moment: float
 
 
 class Each(NamedTuple):
-    """Force and time of contact of each of n springs at the end of a step; to be asked for."""
+    """State of each of n springs at the end of a step; filled only on request."""
 
     pressed_for: Array  #: (n,) share of the step for which it has pressed since it last touched; zero in flight
     f: Array  #: (n,) tangential force over its stiffness
@@ -74,11 +79,11 @@ class Each(NamedTuple):
 
 
 class Look(NamedTuple):
-    """Record that a close look at a step fills, of n springs."""
+    """Detailed output of a step of n springs; filled only on request."""
 
     nodes: Nodes  #: over the whole step
     sums: Array  #: (N_SUMS,) of which it adds up
-    F: Array  #: (4,) at the end of the step: forces along and normal, least slip velocity in contact, force across
+    F: Array  #: (4,) at the end: force along, normal force, least (signed) slip velocity in contact, force across
     mode: Array  #: (n,) of each spring at the end of the step
     f: Array  #: (n,) its tangential force over its stiffness: numbers along a line, vectors in the plane
     f_z: Array  #: (n,) its normal force likewise
@@ -86,8 +91,9 @@ class Look(NamedTuple):
 
 @_inline
 def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, tools):
-    """Contact of spring i, and the time until it ends or begins: infinite for all of the time t. At the begin of a
-    step one that touches may already be let go; later on it does what the event before has told.
+    """Contact of spring i over a time t: whether it presses from now on, and the time to where it is let go, or
+    touches; infinite where neither happens. At the start of a step one that touches may have to be let go at once;
+    later the event before has decided that.
     """
     x, until, fallen, rate, of_force = s[0, i], NEVER, 0.0, 0.0, tol * G
     if presses:
@@ -123,8 +129,11 @@ def within(f, R):
 
 @_inline
 def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    """Springs over a step. rub: the friction over a stretch of contact; or None, as e, for the normal part alone.
-    indices: numbers of the springs, or None for all. The others as of row.py. What is None is compiled away.
+    """Springs over a step; s and e are updated, an Answer comes out.
+
+    rub: function of the friction over a stretch of contact, rub_line or rub_disc; or None, as e, for the normal part
+    alone. indices: numbers of the springs, or None for all. T, modes, arms: of the law (law.py). The others as of
+    row.py. What is None is compiled away.
     """
     h, G = tools.times.h, glassy(arms)
     area = moment = end = nothing = 0.0 * path.x_1  # a number or a vector
@@ -132,6 +141,7 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
     normal_area = normal_moment = normal_end = pressed = 0.0
     if look is not None:
         look.F[2] = np.inf
+    # true rates of the top at the end of the step, less those of the parabolas
     rate_miss = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
     if excess is not None:
         for j in range(s.shape[0]):
@@ -187,7 +197,7 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
             done += t
             z_0, z_1, presses = z_0 + t * (z_1 + t * path.z_2), z_1 + 2.0 * path.z_2 * t, not presses
             if presses:
-                if e is not None:  # moved as s is, so that |e| = s stays true
+                if e is not None:  # corrected as s is, so that a spring at its limit stays there
                     e[0, i] += direction(e[0, i]) * (z_0 - s[0, i])
                 s[0, i] = z_0
             t, k = h - done, PART

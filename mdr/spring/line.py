@@ -1,10 +1,11 @@
-"""Coulomb friction along a line: |L[e]| <= L[s], over a stretch of contact, exact from event to event.
+"""Coulomb friction along a line: |L[e]| <= L[s] (mu_0 is in the unit of e), over a stretch of contact, exact from event
+to event.
 
 =========  ===========  =======================  =====================================
 mode       what moves   what is left alone       it ends where
 =========  ===========  =======================  =====================================
 stick      e with x     nothing                  |L[e]| comes to L[s]: slip
-slip       e with s     s - e (so L[e] = L[s])   the slip velocity ends, x' = e': stick
+slip       e with s     s - e (so L[e] = L[s])   the slip velocity x' - e' is zero: stick
 slip back  e with -s    s + e (L[e] = -L[s])     likewise
 =========  ===========  =======================  =====================================
 """
@@ -28,9 +29,11 @@ BEGINS = -1  #: the mode is still to be found
 
 @_inner
 def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
-    """Velocity over the plane of a spring in contact, below zero in slip back, at a share of the step, where the
-    parabolas have the rates z_1 and x_1. The true rates differ from theirs by `rate_miss` at both ends of the step, and
-    are those of a cubic in between.
+    """Velocity of the foot over the plane: zero in stick, positive in slip, negative in slip back.
+
+    share: time from the start of the step, over h. z_1, x_1: rates of the parabolas then. The true way is a cubic: its
+    rates differ from theirs by rate_miss at the start and the end of the step, in between by
+    rate_miss (1 - 6 share (1 - share)), so that both are at the same places at both ends.
     """
     if mode == STICK:
         return 0.0
@@ -46,10 +49,11 @@ def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
 
 @_inline
 def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tools, look):
-    """Spring i in contact for a time t from `begun` in the step on; s and e are updated.
+    """Friction of spring i over a stretch of contact of the time t, from `begun` in the step on; s and e are updated.
 
-    z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that t has. tol: rounding of a length.
-    rate_miss: as of slip_velocity. look: None or Look.
+    z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that is filled for t, STEP or PART.
+    tol: rounding of a length, which forces and velocities are told from zero by too. rate_miss: as of slip_velocity.
+    look: None or Look.
     """
     h, gone, mode = tools.times.h, 0.0, BEGINS
     area = moment = stuck = stuck_moment = pressed = pressed_moment = 0.0

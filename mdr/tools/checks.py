@@ -19,13 +19,6 @@ from mdr.tools.arrays import Array
 from mdr.tools.messages import short
 
 
-class FieldError(ValueError):
-    """A wrong value, of what was given for a field of a record or an argument."""
-
-    def __init__(self, message: str, field: str = "") -> None:
-        super().__init__(message)
-
-
 def finite(name: str, value: Any, note: str = "") -> float:
     """A real number that is neither NaN nor infinite; its refusals need no note.
 

@@ -45,3 +45,17 @@ def test_a_close_look_leaves_no_array_behind(shake):
     gc.collect()
     after = rtsys.get_allocation_stats()
     assert after.alloc - before.alloc == after.free - before.free > 0
+
+
+@pytest.mark.parametrize("shake", [None, mdr.InPlaneOscillation(300.0, 3e-6, 1.0, 6e-6, 2.0)], ids=["line", "plane"])
+def test_a_combination_of_states_is_brought_into_the_cone_of_friction(shake):
+    """As long as the compression, in its own direction; what lies within stays as it is."""
+    motion = mdr.NormalOscillation(20e-6, 8e-6, 300.0)
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.Elastic(3e6, 0.4), 0.4, motion, shake=shake)
+    stepper = Stepper(at_hand(case, Resolution(32, 64, "full_slip", True))[1], 0.3)
+    state, inside = stepper.full_slip(), stepper.full_slip()
+    turned = -1.0 if shake is None else np.exp(2j)
+    state.e[:] = 7 * turned * state.s
+    inside.e[:] = 0.9 * turned * inside.s
+    assert_allclose(stepper.within_friction(state).e, turned * state.s, rtol=1e-15)
+    assert_allclose(stepper.within_friction(inside.copy()).e, inside.e, rtol=0)

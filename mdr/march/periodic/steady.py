@@ -1,8 +1,9 @@
 """One march of a contact: brought to its steady state (`steady`), and looked at closely (`looked_at`).
 
-From full slip the periodic state of a body is searched for (search.py). Where none is found, and from rest, the march
-goes on until it settles (waiting.py). Under a rigid pull it needs a period or two. This gives the COF. A close look at
-the last periods tells modes, forces and energies. A COF that contradicts a theorem (theorems.py) is not called settled.
+The periodic state is searched for from full slip (search.py). Where none is found, and from rest, the march goes on
+until the COF settles (waiting.py). Elastic springs under a rigid pull need two periods. The last periods are then
+stepped again with detailed output: modes of contact, forces, energies. A COF that contradicts a theorem (theorems.py)
+is not called settled.
 """
 
 from __future__ import annotations
@@ -31,14 +32,14 @@ from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import UNSOLVED, Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
-from mdr.tools.checks import FieldError, finite
+from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
 DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
-FASTEST = 1e15  #: v_0 over Eq. (1), beyond which nothing but the pull is left in the digits of a slip velocity
+FASTEST = 1e15  #: v_0 over mu_0 kappa omega du_z, Eq. (1), beyond which rounding hides the slip velocity
 BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
 MOST_ACCURATE, LEAST_ACCURATE = 1e-8, 1e-3  #: that can be asked for
-MOST_BESIDE = 512  #: periods that a run beside another waits whose periodic state is not found from that one
+MOST_BESIDE = 512  #: most periods of a companion whose periodic state is not found from that of its run
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
 
@@ -47,21 +48,21 @@ def accuracy_of(value: Any) -> float:
     number = finite("accuracy", value)
     if not MOST_ACCURATE <= number <= LEAST_ACCURATE:
         rule = f"accuracy must lie between {MOST_ACCURATE:g} and {LEAST_ACCURATE:g}"
-        raise FieldError(f"{rule}, a bound on the error of cof over mu_0, got {number!r}", "accuracy")
+        raise ValueError(f"{rule}, a bound on the error of cof over mu_0, got {number!r}")
     return number
 
 
 class Resolution(NamedTuple):
-    """What a march may choose: numbers of springs and steps, its start, what to keep, and how accurate it has to be."""
+    """Settings of a march: numbers of springs and steps, its start, what to keep, and how accurate it has to be."""
 
     n_springs: int
-    steps: int
-    start: str
-    lump: bool
-    record: int = 0
+    steps: int  #: of a period
+    start: str  #: initial state, "full_slip" or "rest"
+    lump: bool  #: whether springs that move as one are computed once
+    record: int = 0  #: last periods that are kept with all forces and springs
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
     free: tuple[bool, bool] = (False, False)  #: whether springs and steps are doubled until the error is within it
-    bounded: bool = True  #: whether companions bound the error
+    bounded: bool = True  #: whether companions, runs of fewer springs and steps, bound the error
 
     def of_size(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
         """The resolution of a companion with other steps or springs, that keeps nothing."""
@@ -72,7 +73,7 @@ class Resolution(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Converged:
-    """A march that has come to its end, not yet looked at closely; in scaled form."""
+    """The end of a march, settled or not, before the detailed look at its last periods; in scaled form."""
 
     case: SlidingContact
     v_0: float
@@ -81,8 +82,8 @@ class Converged:
     stepper: Stepper
     orbit: Orbit  #: state and COF at the end
     n_periods: int  #: marched so far, without one that was looked at closely
-    waited: Waiting | None  #: how it settled, where it was not solved for
-    awaits: bool  #: whether what it still marches counts for that
+    waited: Waiting | None  #: the march that led here; None where the periodic state was solved for
+    awaits: bool  #: whether n_periods were asked for, so that periods that are looked at count for settling too
     error: float | None = None  #: bound on that of the COF, over mu_0; None where no companion tells
 
     @property
@@ -97,7 +98,7 @@ class Converged:
 
     @property
     def on_the_way(self) -> float:
-        """Periods that a run from rest takes to stretch springs and system."""
+        """Periods of pre-sliding: what a run from rest takes to stretch springs and pull; zero from full slip."""
         return 0.0 if self.waited is None else self.waited.on_the_way
 
     @property
@@ -111,29 +112,29 @@ class Converged:
         return self.stepper.mean_F_z
 
     @property
-    def off_load(self) -> float:
-        """What the springs miss of the load that they are to carry, over it; zero where the depth is given."""
+    def load_error(self) -> float:
+        """Relative error of the mean normal force under a load that is given; zero where the depth is."""
         load, units = self.case.oscillation.load, self.scaled.units
         return 0.0 if load is None else abs(self.mean_F_z * units.stiffness_z * units.length_z / load.F_z0 - 1)
 
     @property
-    def missing_load(self) -> float:
-        """The same with what the depth under the load was solved to."""
-        return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.off_load)
+    def depth_error(self) -> float:
+        """The greater of load_error and the relative error to which the depth was solved; zero where it is given."""
+        return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.load_error)
 
     @property
-    def left_out(self) -> float:
-        """What no finer run finds: of the load, and of the friction of arms that are taken for springs."""
-        return self.missing_load + (0.0 if self.slips_fully else self.scaled.slow.error)
+    def hidden_error(self) -> float:
+        """Error over mu_0 that no finer run shows: of the load, and of slow arms that are taken for springs."""
+        return self.depth_error + (0.0 if self.slips_fully else self.scaled.slow.error)
 
     @property
     def to_begin_from(self) -> Converged | None:
-        """Itself, if other runs may begin in its state: a periodic one, and not full slip, where they begin anyway."""
+        """Itself, if other runs may begin in its periodic state; None in full slip, where they begin anyway."""
         return self if self.settling.solved and not self.slips_fully else None
 
     @property
     def slips_fully(self) -> bool:
-        """Whether nothing is missing in the COF but rounding."""
+        """Whether the COF is mu_0 to rounding: full slip."""
         return abs(1 - self.cof) < FULL
 
     def unsettled(self, why: str) -> Converged:
@@ -168,12 +169,11 @@ class Observed:
 
     @property
     def may_rest_elsewhere(self) -> bool:
-        """Whether a spring keeps its foot in place for good and might do so elsewhere: of two such states neither moves
-        towards the other.
+        """Whether some spring can stick for good with its foot at more than one place, so that the end depends on the
+        start.
 
-        A spring whose top goes the way x while it is pressed to z - gap, its foot at rest at -c, bears L[x] + c, which
-        friction holds between gap - L[z] and L[z] - gap. Some c do that throughout where gap is less than half the sum
-        of the least of L[z - x] and of L[z + x].
+        At v_0 = 0, with x the displacement of its top, -c the place of its foot and z - gap its compression, the force
+        L[x] + c must stay within L[z] - gap. More than one c does so if 2 gap < min L[z - x] + min L[z + x].
         """
         scaled = self.end.scaled
         if self.end.v_0 != 0:
@@ -201,7 +201,9 @@ class Observed:
 
     @property
     def least_slip(self) -> float:
-        """Least slip velocity in contact over v_0, or that of a shake, of a run in full slip; zero of any other."""
+        """Least slip velocity in contact, over v_0 or the greatest velocity of a shake if that is more; zero unless the
+        run is in full slip.
+        """
         sums = self.account.seen.sums
         full = self.stick_share == 0 and abs(1 - self.cof) < FULL
         stepper = self.end.stepper
@@ -216,10 +218,10 @@ def steady(
     near: Converged | None = None,
     most: int | None = None,
 ) -> Converged:
-    """Marched until settled, or for exactly n_periods.
+    """March until the COF settles, or for exactly n_periods: the end of the march.
 
-    near: a march of the case at other resolution or velocity, whose periodic state is a good one to search from. most:
-    periods after which a march that does not settle ends; None is the most of any.
+    v_0: pulling velocity [m/s]. near: the end of a march of the case at other resolution or velocity, in whose periodic
+    state the search begins. most: periods after which a march that does not settle is given up; None is MAX_PERIODS.
     """
     springs, scaled = at_hand(case, resolution)
     if not scaled.normal.mean > 0:
@@ -280,29 +282,32 @@ def check(case: SlidingContact, v_0: float) -> None:
         )
     if v_0 > FASTEST * (max(case.pace, case.unit_velocity) if case.is_shaken else case.unit_velocity):
         raise ValueError(
-            f"v_0 = {v_0:g} m/s is {FASTEST:g} times Eq. (1) or more, full slip but for rounding; lower it"
+            f"v_0 = {v_0:g} m/s is {FASTEST:g} times mu_0 kappa omega du_z, Eq. (1), or more: full slip but rounding; "
+            "lower it"
         )
 
 
 def _searched(stepper: Stepper, resolution: Resolution, near: Converged | None) -> Orbit | None:
-    """The periodic state, where it can be solved for: of springs that know nothing of each other, each by itself."""
+    """The periodic state; None where it is not found. Springs under a rigid pull are not coupled: each is solved for by
+    itself.
+    """
     scaled, orbit, from_full_slip = stepper.scaled, None, resolution.start == "full_slip"
-    at_once = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
-    if at_once and from_full_slip and stepper.v > 0:
+    in_two_periods = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
+    if in_two_periods and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
-    alone = (
+    uncoupled = (
         (scaled.ways == 2 or scaled.rheology.rho) and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
     )
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
         start, motions = at_other_resolution(near.orbit.state, near.orbit.motions, near.scaled, scaled)
-        if alone and (orbit := search_alone(stepper, start)) is not None:
+        if uncoupled and (orbit := search_alone(stepper, start)) is not None:
             return orbit
         # that of a velocity close by will do where no bound rests on it
         trusted = near.stepper.v == stepper.v or not resolution.bounded
         gain = gain_at_other_resolution(near.settling.gain, near.scaled, scaled) if trusted else None
         orbit = search(stepper, (start,), gain, near=True, motions=motions)
-    if alone and from_full_slip and (orbit := search_alone(stepper, stepper.full_slip())) is not None:
+    if uncoupled and from_full_slip and (orbit := search_alone(stepper, stepper.full_slip())) is not None:
         return orbit
     if from_full_slip and (orbit is None or not orbit.settling.settled):
         again = search_from_full_slip(stepper)
@@ -311,10 +316,10 @@ def _searched(stepper: Stepper, resolution: Resolution, near: Converged | None) 
 
 
 def _after_a_period(stepper: Stepper) -> Orbit:
-    """The periodic state of elastic springs under a rigid pull, which know nothing of each other.
+    """The periodic state of elastic springs under a rigid pull.
 
-    From full slip on a spring is never behind its periodic state; where that slips, as it does in every period, it is
-    at the limit of friction, and the spring with it.
+    From full slip on the extension of a spring is never less than in its periodic state. Where that slips, as it does
+    in every period, it is at the limit of friction; so is the spring, and from then on both are one.
     """
     state, periods = stepper.advance(stepper.full_slip(), 2)
     last = Periods(*(column[-1:] for column in periods))
@@ -346,7 +351,7 @@ def too_coarse(steps: int) -> ValueError:
 
 
 def at_hand(case: SlidingContact, resolution: Resolution) -> tuple[SpringArray, ScaledContact]:
-    """Springs and their scaled form; runs of one case at other velocities share them."""
+    """The springs and the scaled contact, kept: runs at other velocities share them."""
     lump = resolution.lump and resolution.start == "full_slip"
     return _scaled(case, resolution.n_springs, resolution.steps, lump)
 

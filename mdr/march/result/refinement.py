@@ -200,7 +200,7 @@ def _refined(runs: _Runs, resolution: Resolution) -> Converged:
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
             return best or replace(main, error=0.0)
         share = resolution.accuracy / 2
-        may_be_clear = main.slips_fully and (main.off_load <= share or not any(resolution.free))
+        may_be_clear = main.slips_fully and (main.load_error <= share or not any(resolution.free))
         if may_be_clear and (clear := _clear_of_stick(runs, main)) is not None:
             return clear
         missed = _missed_by(runs, main)
@@ -209,7 +209,7 @@ def _refined(runs: _Runs, resolution: Resolution) -> Converged:
             why = "the time limit is over before the runs beside it, which bound cof_error, were done"
             return best or replace(main.unsettled(why), error=0.0)
         best = replace(main, error=error)
-        met = error + main.settling.spread + main.left_out <= resolution.accuracy
+        met = error + main.settling.spread + main.hidden_error <= resolution.accuracy
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed)
@@ -221,7 +221,7 @@ def _refined(runs: _Runs, resolution: Resolution) -> Converged:
 def _finer(main: Converged, missed: Missed) -> Resolution:
     """Twice the steps or springs, or both, of which too much is missed; the same where that cannot be afforded."""
     free, share = main.resolution.free, main.resolution.accuracy / 2
-    of_steps, of_springs = missed.steps.apart, max(missed.springs.apart, main.off_load)
+    of_steps, of_springs = missed.steps.apart, max(missed.springs.apart, main.load_error)
     both = max(of_steps, of_springs) <= share  # the error is that of the other companion
     n_springs, steps = main.resolution.n_springs, main.resolution.steps
     if free[0] and (both or of_springs > share):

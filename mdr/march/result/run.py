@@ -194,7 +194,7 @@ def finish(end: Converged) -> SlidingRun:
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
-    error += end.left_out
+    error += end.hidden_error
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
     sticks = march.stick_share
