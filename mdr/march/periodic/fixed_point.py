@@ -60,6 +60,7 @@ class Iterate:
     x: Array  #: the state
     change: float  #: how far it moved in the last period, over its size
     period: Periods | None = None  #: what is known of that period
+    before: Array | None = None  #: where that began, if the period is known
 
 
 @dataclass(frozen=True, eq=False)

@@ -150,7 +150,8 @@ def _by_anderson(
     if not np.isfinite(change):
         return None
     is_last = at.counts[anderson.SINCE] == at.counts[anderson.PERIODS] - 1
-    return fixed_point.Iterate(at.best, change, stepper.periods_of(solver.trace) if is_last else None)
+    known = (stepper.periods_of(solver.trace), at.start.copy()) if is_last else ()
+    return fixed_point.Iterate(at.best, change, *known)
 
 
 def _nearly_full(cof: float) -> bool:
@@ -220,11 +221,14 @@ def _repeated(stepper: Stepper, state: MarchState, found: fixed_point.FixedPoint
     """The COF of the periodic state, and how far it may be from that of the exact one."""
     # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
     spread = 2 * found.distance * float(np.linalg.norm(norm.of(found.x))) / stepper.mean_F_z
-    period = found.end.period  # began as far from the exact one as `spread` says
-    if period is None:
-        state, period = stepper.advance(stepper.within_friction(state), 1)
+    period, before = found.end.period, found.end.before  # began as far from the exact one as `spread` says
+    if period is None or before is None:
+        begin = stepper.within_friction(state)
+        state, period = stepper.advance(begin, 1)
+    else:
+        begin = state.with_vector(before)
     cof, cof_y = float(period.cof[-1]), float(period.cof_y[-1])
-    late = stepper.v > 0 and stepper.late(state, stepper.advance(state, 1)[0], 1) > stepper.tolerance
+    late = stepper.v > 0 and stepper.late(begin, state, 1) > stepper.tolerance
     if spread <= SOLVED_TOLERANCE and not late:
         return Orbit(state, period, Settling(cof, spread, True, "periodic", found.gain, across=cof_y))
     why = LATE if late else "a periodic state was found, but not how far it may be from the exact one"
