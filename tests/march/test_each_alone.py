@@ -37,3 +37,16 @@ def test_it_is_what_a_march_comes_to():
     orbit = search_alone(march, march.full_slip())
     _, periods = march.advance(march.full_slip(), 1500)  # 1500 * 2 pi of what creeps with some 100
     assert (orbit.settling.mean, orbit.settling.across) == pytest.approx((periods.cof[-1], periods.cof_y[-1]), abs=1e-8)
+
+
+@pytest.mark.filterwarnings("error")
+def test_springs_that_all_fly_as_a_period_begins_are_pushed_too():
+    """The size of a push was that of the compression at that instant, nothing, and the derivative 0/0."""
+    motion = mdr.PeriodicMotion(OMEGA, 0.0, cos=(-8e-6,))
+    shake = mdr.InPlaneOscillation(OMEGA, du_x=2e-6, du_y=4e-6)
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(3e6, 0.4), MU_0, motion, shake=shake)
+    _, scaled = at_hand(case, Resolution(32, 64, "full_slip", True))
+    assert not scaled.normal.s.any()
+    run = mdr.slide(case, 0.3 * case.unit_velocity)
+    assert run.settled
+    assert run.cof_error < 1e-5 * MU_0

@@ -27,7 +27,7 @@ from mdr.march.periodic.solver import Solver, iterate
 from mdr.tools.arrays import Array
 
 TURNS = 60  #: of Newton's method; springs at slow pulls meet kinks in a dozen
-PUSH = 1e-6  #: displacement that tells the derivative, over the greatest compression
+PUSH = 1e-6  #: displacement that tells the derivative, over the greatest compression at phase 0
 FLAT = 1e-9  #: share of itself by which a spring is taken to forget in a period, where it forgets nothing
 SHORTER, SHORTEST = 0.25, 0.01  #: shares of a step that is no gain, which are tried
 BEFORE = 0.01  #: part of the tolerance at which it ends
@@ -59,7 +59,8 @@ class _Springs:
         ways, rheology, modes = self.scaled.ways, self.scaled.rheology, self.scaled.law.modes
         self.roots = np.sqrt(np.tile(np.r_[1.0, rheology.rho], ways))[:, None]
         self.lasting = np.flatnonzero(np.tile(np.r_[True, np.array(rheology.theta) > FORGOTTEN], ways))
-        self.farthest = float(like.s[0].max())
+        deepest = float(self.scaled.drive.z.max() - self.scaled.springs.gap.min())
+        self.farthest = float(like.s[0].max()) or deepest  # at phase 0 all may be in flight
         self.most = like.s[0] + WIDER * self.farthest  # how far the vector of each spring may reach
         self.enough = BEFORE * stepper.tolerance * stepper.mean_F_z
         self.creep: Array = np.eye(
