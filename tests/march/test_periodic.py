@@ -10,7 +10,7 @@ from twins import rigid_pull as reference
 
 import mdr
 from mdr.march.periodic import anderson, fixed_point
-from mdr.march.periodic.steady import Resolution, steady
+from mdr.march.periodic.steady import MOST_ACCURATE, Resolution, steady
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
@@ -201,3 +201,27 @@ def test_a_start_from_rest_goes_its_way_before_the_periodic_state_is_looked_for(
     assert run.n_periods >= max(run.on_the_way, 32)
     full = steady(case, v_0, Resolution(32, 128, "full_slip", True))
     assert abs(run.cof - full.cof) <= run.settling.spread + full.settling.spread
+
+
+def test_it_takes_a_fifth_of_the_steps_of_waiting(monkeypatch):
+    """Lightly damped bodies, all digits, the median; waiting is stopped as soon as it has the same spread."""
+    rng = np.random.default_rng(4)
+    shares = []
+    for _ in range(12):
+        case, v_0 = body(
+            rng.choice(["flat", "cone", "paraboloid", "r4"]),
+            rng.uniform(1, 8),
+            rng.choice([0.0, 0.3, 1.0]),
+            10 ** rng.uniform(-0.7, 0.5),
+            10 ** rng.uniform(-0.4, 0.6),
+            rng.choice([0.0, 0.001, 0.005]),
+            rng.uniform(0.1, 0.9),
+        )
+        knobs = Resolution(n_springs=64, steps=256, start="full_slip", lump=True, accuracy=MOST_ACCURATE)
+        solved = steady(case, v_0, knobs)
+        with monkeypatch.context() as patch:
+            without_search(patch)
+            patch.setattr("mdr.march.periodic.waiting.TOLERANCE", max(solved.settling.spread, 1e-13))
+            awaited = steady(case, v_0, knobs)
+        shares.append(solved.n_periods / awaited.n_periods if solved.settling.solved else 1.0)
+    assert np.median(shares) <= 0.2

@@ -282,8 +282,8 @@ def check(case: SlidingContact, v_0: float) -> None:
         )
     if v_0 > FASTEST * (max(case.pace, case.unit_velocity) if case.is_shaken else case.unit_velocity):
         raise ValueError(
-            f"v_0 = {v_0:g} m/s is {FASTEST:g} times mu_0 kappa omega du_z, Eq. (1), or more: full slip but rounding; "
-            "lower it"
+            f"v_0 = {v_0:g} m/s is {FASTEST:g} times mu_0 kappa omega du_z, Eq. (1), or more, "
+            "full slip but for rounding; lower it"
         )
 
 
