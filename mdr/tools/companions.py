@@ -24,6 +24,6 @@ class Companion(NamedTuple):
         return max(self.times * self.apart, self.least)
 
 
-def bound(*companions: Companion, least: tuple[Companion, ...] = ()) -> float:
+def bound(*companions: Companion, others: tuple[Companion, ...] = ()) -> float:
     """Bound on the error of a run: the sum over its numbers, and no less than what other pairs of runs tell."""
-    return max([sum(one.error for one in companions), *(one.error for one in least)])
+    return max([sum(one.error for one in companions), *(one.error for one in others)])

@@ -8,10 +8,11 @@ it and pulled either way. Along and across the pull the worse error counts, agai
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from conftest import SHAPES
+from tables.beside import Row, told
 from twins import turning as twin
 
 import mdr
@@ -95,27 +96,6 @@ def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) ->
     return twin.friction(SHAPES[shape][1], case.cycle.u_z0 / unit, *motion, material, body, across, **knobs)
 
 
-@dataclass(frozen=True)
-class Row:
-    """One run beside the truth as far as that is known; all over mu_0."""
-
-    name: str
-    cof: float
-    bound: float  #: its cof_error
-    truth: float
-    doubt: float  #: of the truth
-    settled: bool
-
-    @property
-    def distance(self) -> float:
-        return abs(self.cof - self.truth)
-
-    @property
-    def error(self) -> float:
-        """What the doubt leaves of the distance."""
-        return max(self.distance - self.doubt, 0.0)
-
-
 def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:
     """The run beside the twin, along or across the pull, where they differ more."""
     run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs)
@@ -124,20 +104,8 @@ def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs:
     return max(rows, key=lambda one: one.distance)
 
 
-def told(rows: Sequence[Row]) -> int:
-    """Print how many errors are within their bound, and the worst; 0 if all are, and the bounds are neither missing nor
-    a hundred times too wide in the median.
-    """
-    usable = [one for one in rows if one.settled]
-    held, wide = (one.error <= one.bound for one in usable), [one.bound / max(one.distance, 1e-13) for one in usable]
-    print(f"{len(rows)} cases, {len(usable)} settled; median bound over error: {np.median(wide):.3g}")
-    for one in sorted(usable, key=lambda one: one.error / one.bound)[:-9:-1]:
-        print(f"  {one.distance:.1e} from the truth (doubt {one.doubt:.1e}), bound {one.bound:.1e}: {one.name}")
-    return 0 if all(held) and len(usable) >= 0.9 * len(rows) and np.median(wide) <= 100 else 1
-
-
 def main(n: int = 0, *words: str) -> int:
     """Print the table; 0 if all errors are within their bound."""
     bodies, motions = "bodies" in words, ALONG if "along" in words else MOTIONS
     systems = drawn(n or (40 if bodies else 120), bodies, motions)
-    return told([row_of(*one) for one in progress(systems, "turning")])
+    return told([row_of(*one) for one in progress(systems, "turning")], 1.0)

@@ -29,7 +29,7 @@ from mdr.march.periodic.search import (
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.solver import OutOfTime
 from mdr.march.periodic.theorems import outside
-from mdr.march.periodic.waiting import UNSOLVED, Waiting, way_from_rest
+from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
 from mdr.normal.springs import SpringArray
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import finite
@@ -330,7 +330,7 @@ def _contradiction(march: Observed) -> str:
     """Why the COF that a march has settled at cannot be one; nothing if it can."""
     stepper, seen, settling, error = march.end.stepper, march.account, march.settling, march.end.error
     if not seen.solved:
-        return UNSOLVED
+        return NO_STEP
     least = -1.0 if stepper.scaled.drive.is_shaken else float(seen.seen.F[:, 1].min()) / stepper.mean_F_z
     # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
     why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)

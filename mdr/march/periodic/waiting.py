@@ -25,7 +25,7 @@ NEARLY = 2e-3  #: below the end of stick, of it: where less than TOLERANCE is mi
 SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked for once more
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
 #: why a march ends at once whose steps do not converge
-UNSOLVED = "the motion of the body over a step, in which it and its springs agree, was not found"
+NO_STEP = "the motion of the body over a step, in which it and its springs agree, was not found"
 FEW = 0.1  #: of the way from rest, that a pull has to go while it is waited for late springs
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 
@@ -79,7 +79,7 @@ class Waiting:
             if time_is_over():
                 return self._ended(replace(settling, why=f"the time limit is over after {self.n} periods"))
             if not self.stepper.solved:
-                return self._ended(replace(settling, why=UNSOLVED))
+                return self._ended(replace(settling, why=NO_STEP))
             if self._is_late and self.scaled.drive.is_shaken and FEW * self._way > most:
                 return self._ended(replace(settling, why=self._why_late))
             if not self._may_settle_by(most):

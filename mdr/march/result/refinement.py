@@ -255,7 +255,7 @@ class Missed(NamedTuple):
     @property
     def bound(self) -> float:
         """On the error."""
-        return bound(self.steps, self.springs, least=self.by_chance)
+        return bound(self.steps, self.springs, others=self.by_chance)
 
 
 def _missed_by(runs: _Runs, main: Converged) -> Missed:

@@ -17,7 +17,7 @@ from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_bala
 from mdr.march.dynamics.stepper import TOLERANCE, UNKNOWN, PeriodRecord
 from mdr.march.periodic.settling import LATE, MIN_PERIODS
 from mdr.march.periodic.steady import Converged, Observed, looked_at, too_coarse
-from mdr.march.periodic.waiting import UNSOLVED
+from mdr.march.periodic.waiting import NO_STEP
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import EXACT, Array, beyond
@@ -226,8 +226,8 @@ def finish(end: Converged) -> SlidingRun:
 
 def _why_not(march: Observed) -> str:
     settling, n = march.settling, march.n_periods
-    if settling.why == UNSOLVED:
-        return f"{UNSOLVED}: raise steps_per_period, or hold the indenter rigidly"
+    if settling.why == NO_STEP:
+        return f"{NO_STEP}: raise steps_per_period, or hold the indenter rigidly"
     if settling.contradicts:
         return f"{settling.why}: change start or steps_per_period"
     if LATE in settling.why:
