@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.element.contact_element import ContactElement
+from mdr.spring.disc import SHORTEST
+from mdr.spring.dragged import EVEN
 from mdr.tools.version import __version__
 
 WIDTH = 120  #: of a line of numbers
@@ -58,6 +60,8 @@ def header(element: ContactElement, name: str, told: str) -> str:
         "U_Z_MAX": numbers(element.u_z_max),
         "MARK": numbers(element._mark),
         "T": numbers(law.T),
+        "EVEN": numbers(EVEN),
+        "SHORTEST": numbers(SHORTEST),
         "UNITS": numbers([row.length_x, row.length_x, row.length_z]),
         "FORCES": numbers([row.force_x, row.force_x, row.force_z]),
         "GAP": numbers(row.gap),

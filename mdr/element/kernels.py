@@ -15,7 +15,7 @@ from mdr.spring.contact import Each, press
 from mdr.spring.law import Law
 from mdr.spring.motion import glassy
 from mdr.spring.path import Path
-from mdr.spring.row import any_row
+from mdr.spring.row import row
 from mdr.spring.times import STEP, new_tools, tools_of
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.jit import compiled, inner
@@ -53,7 +53,7 @@ def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each):
     h = tools.times.h
     z_1, x_1 = way_z / h, way_x / h
     path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1)
-    return any_row(s, e, contact.gap, contact.w, path, z_1, x_1, T, modes, arms, tools, None, each, None)
+    return row(s, e, contact.gap, contact.w, path, z_1, x_1, T, modes, arms, tools, None, each, None)
 
 
 class Room(NamedTuple):

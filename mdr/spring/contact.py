@@ -143,9 +143,6 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
         look.F[2] = np.inf
     # true rates of the top at the end of the step, less those of the parabolas
     rate_miss = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
-    if excess is not None:
-        for j in range(s.shape[0]):
-            excess[j, 0] = 0.0
     n_indices = gap.size
     if indices is not None:
         n_indices = indices.size

@@ -27,7 +27,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 BEGINS = -1  #: the mode is still to be found
 MOST_HALVINGS = 60  #: in the search for the end of a mode
-SHORTEST = 1 / 256  #: part of a step that slip is followed for at once, however its leash changes
+SHORTEST = 1 / 16  #: part of a step that slip is followed for at once, however its leash changes
 SLOW = 8.0  #: times a time: of a dashpot beside arms, from which on it is slow in it
 SOON = 1e-6  #: part of a time: whether a spring on arms slips at once, or leaves the rim inward, is told there
 INSIDE = 10.0  #: times what is rounding, by which a force is told from one on the rim

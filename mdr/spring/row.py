@@ -1,16 +1,19 @@
-"""The step of a row of springs with friction: along a line, or in the plane. Lengths are scaled so that Coulomb's law
-has no coefficient. Without friction it is `press` (contact.py).
+"""The step of a row of springs with friction, `row`: along a line, or in the plane where e is complex. Lengths are
+scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py).
 
 gap, w (n,): depth of each foot, share in the stiffness. s, e (1 + J, n), updated: row 0 is compression and extension,
-row j the stretch of arm j; e is complex in the plane. zd, xd: rates of the top at the end of the step. tools: of the
-step (times.py). each: None or Each. look: None or Look. Each row answers an Answer.
+row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: of the step (times.py). excess,
+along a line: None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the end, and of -2 w s of
+those that slip back, for `as_they_are`. each: None or Each. look: None or Look. Out comes an Answer.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from numba.core.types import Complex
+from numba.core.types import Complex, NoneType
 from numba.extending import overload
 
 from mdr.spring.contact import Answer, one_row
@@ -19,57 +22,68 @@ from mdr.spring.line import rub_line
 from mdr.spring.motion import hold
 from mdr.spring.path import FAST, LENT, OWN
 from mdr.spring.times import STEP
-from mdr.spring.whole import whole
+from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.jit import compiled, inner
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+_OWN: Any = {"error_model": "numpy", "fastmath": FAST, **OWN}
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
 
-@_call
 def row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    """The step along a line. excess: None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the
-    end, and of -2 w s of those that slip back, for `as_they_are`.
-    """
+    """The step; a compiled function calls it."""
+    lean = arms is None and look is None
+    of = _row(np.iscomplexobj(e), lean, lean and each is None)
+    return of(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+
+
+@overload(row, inline="never", jit_options=_OWN)
+def _(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    lean = isinstance(arms, NoneType) and isinstance(look, NoneType)
+    return _row(isinstance(e.dtype, Complex), lean, lean and isinstance(each, NoneType))
+
+
+def _row(in_plane, lean_in_plane, lean):
+    """The function for a kind of row; lean: springs that do one thing for all of the step go first."""
+    if in_plane:
+        return _in_plane_lean if lean_in_plane else _in_plane
+    return _on_line_lean if lean else _on_line
+
+
+def _on_line(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    if excess is not None:
+        excess[:] = 0.0
     return one_row(rub_line, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
-@compiled(error_model="numpy", nogil=True, fastmath=FAST, **OWN)
-def row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look):
-    """The step in the plane."""
-    if look is None:  # noqa: SIM102 - numba leaves out what comes after one such condition, not after two
-        if arms is None:
-            made, others, n = np.empty(4 * gap.size), np.empty(gap.size, np.int64), 0
-            of = whole(s[0], e[0], gap, w, path, tools.times.h, T, modes, each, made)
-            for i in range(gap.size):
-                if made[4 * i + 3] != 0.0:
-                    s[0, i], e[0, i] = made[4 * i], complex(made[4 * i + 1], made[4 * i + 2])
-                else:
-                    others[n] = i
-                    n += 1
-            indices = others[:n]
-            return both(
-                of, one_row(rub_disc, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
-            )
+def _on_line_lean(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    if excess is not None:
+        excess[:] = 0.0
+    made, others, n = np.empty(gap.size), np.empty(gap.size, np.int64), 0
+    of = whole_on_line(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, excess, made)
+    for i in range(gap.size):
+        if made[i] == 0.0:
+            others[n] = i
+            n += 1
+    rest = one_row(rub_line, others[:n], s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    return both(of, rest)
+
+
+def _in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
     return one_row(rub_disc, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
 
 
-def any_row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    """The step along a line, or in the plane, without the excess: as the type of e says."""
-    if np.iscomplexobj(e):
-        return row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look)
-    return row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
-
-
-@overload(any_row, inline="never")
-def _(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    def along_a_line(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-        return one_row(rub_line, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
-
-    def in_the_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-        return row_in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, each, look)
-
-    return in_the_plane if isinstance(e.dtype, Complex) else along_a_line
+def _in_plane_lean(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    made, others, n = np.empty(4 * gap.size), np.empty(gap.size, np.int64), 0
+    of = whole_in_plane(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, each, made)
+    for i in range(gap.size):
+        if made[4 * i + 3] != 0.0:
+            s[0, i], e[0, i] = made[4 * i], complex(made[4 * i + 1], made[4 * i + 2])
+        else:
+            others[n] = i
+            n += 1
+    rest = one_row(rub_disc, others[:n], s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
+    return both(of, rest)
 
 
 @_inline

@@ -113,11 +113,11 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, pressed_for)
             before += w[i] * s[0, i]
             flies = flies and s[0, i] > z[k] - gap[i]
         of = press(s, gap, w, path, z_dot[k + 1], T, modes, arms, tools, each)
-        if force.shape[0] > 0:
-            force[k], pressed_for[k] = each.f_z, each.pressed_for
         pressed, flight = 0.0, 0.0
         for i in range(n):
             pressed = max(pressed, each.pressed_for[i])
+            if force.shape[0] > 0:
+                force[k, i], pressed_for[k, i] = each.f_z[i], each.pressed_for[i]
         if flies and pressed > 0.0:
             flight = h * max(1.0 - pressed - EARLY, 0.0)
         sums[0, k], sums[1, k], sums[2, k] = of.normal_area, of.normal_moment, of.normal_end

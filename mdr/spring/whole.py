@@ -1,7 +1,8 @@
 """Springs without arms that stick, slip or fly for all of a step: most of them in most steps.
 
-What turning.py follows from event to event is here the case that nothing happens. One loop without branches, which is
-vectorised, works out all modes for every spring, keeps the one that surely holds, and leaves the other springs alone.
+What line.py and disc.py follow from event to event is here the case that nothing happens. One loop without branches,
+which is vectorised, works out all modes for every spring, keeps the one that surely holds, and leaves the other springs
+alone.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -10,17 +11,92 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.spring.contact import Answer
-from mdr.spring.dragged import EVEN, NO_PHI, area_and_moment, force_and_rates, is_short, point, scaled, slid, yielded
+from mdr.spring.dragged import (
+    EVEN,
+    NO_PHI,
+    TINY,
+    area_and_moment,
+    force_and_rates,
+    is_short,
+    point,
+    scaled,
+    slid,
+    yielded,
+)
 from mdr.spring.law import phi_of
-from mdr.spring.path import FAST, LENT, ROUNDING, Cubic, along, at, size_of, slope
+from mdr.spring.path import FAST, LENT, ROUNDING, Cubic, along, area_on_parabola, at, size_of, slope
 from mdr.tools.jit import inner
 
 TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
 
 
 @inner(error_model="numpy", fastmath=FAST, **LENT)
-def whole(s, e, gap, w, path, h, T, modes, each, made):
-    """The springs that do one thing for all of a step h: their Answer.
+def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
+    """The springs that do one thing for all of a step h along a line: their Answer.
+
+    s, e (n,): compressions and extensions, updated. made (n,) is filled with one, or with zero for a spring that is
+    left alone. excess: as of `row`; theirs is added. A parabola lies below the line through its ends by no more than
+    h²/8 of its curvature.
+    """
+    rate, fallen, z_1, z_2, x_1, x_2 = 0.0, 0.0, path.z_1, path.z_2, path.x_1, path.x_2
+    if modes is not None:
+        rate, fallen = modes.mu[0], np.exp(-modes.mu[0] * h)
+    sink, go, z_end, x_end = h * (z_1 + h * z_2), h * (x_1 + h * x_2), z_1 + 2.0 * z_2 * h, x_1 + 2.0 * x_2 * h
+    highest = max(path.z_0, path.z_0 + sink)
+    if z_2 < 0.0 and 0.0 < -0.5 * z_1 / z_2 < h:
+        highest = path.z_0 - 0.25 * z_1 * z_1 / z_2
+    eighth = 0.125 * h * h
+    dip, dip_ahead, dip_behind = max(z_2, 0.0), max(z_2 - x_2, 0.0), max(z_2 + x_2, 0.0)
+    dip, dip_ahead, dip_behind = 2.0 * eighth * dip, 2.0 * eighth * dip_ahead, 2.0 * eighth * dip_behind
+    dip_of_rate = eighth * rate * rate * rate
+    fall_ahead, fall_behind = z_1 - x_1 + 2.0 * T * (z_2 - x_2), z_1 + x_1 + 2.0 * T * (z_2 + x_2)
+    area = moment = end = sticking = back = share = pressed = pressed_moment = pressed_end = of_excess = 0.0
+    for i in range(gap.size):
+        tol, z_0, s_0, e_0, w_i = ROUNDING * (1.0 + abs(gap[i])), path.z_0 - gap[i], s[i], e[i], w[i]
+        R, R_1, f, f_1 = z_0 + T * z_1, z_0 + sink + T * z_end, e_0 + T * x_1, e_0 + go + T * x_end
+        ahead, ahead_1, behind, behind_1 = R - f, R_1 - f_1, R + f, R_1 + f_1
+        presses = (s_0 <= z_0 + tol) & (min(R, R_1) - dip > tol)
+        flies = (s_0 > z_0 + tol) & (min(s_0, fallen * s_0) > highest - gap[i])
+        sticks = presses & (min(ahead, ahead_1) - dip_ahead > tol) & (min(behind, behind_1) - dip_behind > tol)
+        # slip, forward and back: what is left alone, and the least slip velocity
+        lag, lead = z_0 - e_0, z_0 + e_0
+        vel = min(x_1 - z_1 - rate * lag, x_end - z_end - rate * fallen * lag) - dip_of_rate * max(-lag, 0.0)
+        vel_back = min(-x_1 - z_1 - rate * lead, -x_end - z_end - rate * fallen * lead) - dip_of_rate * max(-lead, 0.0)
+        begins = (ahead < -tol) | ((ahead <= tol) & (fall_ahead < 0.0))
+        begins_back = (behind < -tol) | ((behind <= tol) & (fall_behind < 0.0))
+        slips = presses & begins & (behind > tol) & (vel > 0.0)
+        slips_back = presses & begins_back & (ahead > tol) & (vel_back > 0.0)
+        # areas and moments of both forces
+        normal, lever = area_on_parabola(z_0, z_1, z_2, T, h)
+        held, held_lever = area_on_parabola(e_0, x_1, x_2, T, h)
+        s_1, sign, slides = z_0 + sink, 1.0 if slips else -1.0, slips | slips_back
+        e_1 = e_0 + go if sticks else (s_1 - fallen * lag if slips else fallen * lead - s_1)
+        R, f = max(s_1 + T * zd, 0.0), e_0 + go + T * xd
+        area += w_i * (held if sticks else (sign * normal if slides else 0.0))
+        moment += w_i * (held_lever if sticks else (sign * lever if slides else 0.0))
+        end += w_i * (max(min(f, R), -R) if sticks else (sign * R if slides else 0.0))
+        sticking += w_i if sticks else 0.0
+        back += w_i if slips_back else 0.0
+        bears = w_i if sticks | slides else 0.0
+        share += bears if R > 0.0 else 0.0
+        pressed += bears * normal
+        pressed_moment += bears * lever
+        pressed_end += bears * R
+        of_excess += w_i * (e_1 - s_1 if sticks else (-2.0 * s_1 if slips_back else 0.0))
+        s[i] = fallen * s_0 if flies else (s_1 if sticks | slides else s_0)
+        e[i] = fallen * e_0 if flies else (e_1 if sticks | slides else e_0)
+        made[i] = 1.0 if sticks | slides | flies else 0.0
+    if excess is not None:
+        excess[0, 0] += of_excess
+    stuck = h * sticking
+    return Answer(
+        area, moment, end, stuck, 0.5 * h * stuck, sticking, back, pressed, pressed_moment, pressed_end, share
+    )
+
+
+@inner(error_model="numpy", fastmath=FAST, **LENT)
+def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
+    """The springs that do one thing for all of a step h in the plane: their Answer.
 
     s, e (n,): compressions and extensions. made (4 n,) is filled with what these come to, and then one; or with
     zero for a spring that is left alone. One array and steady strides, or else the loop is not vectorised.
@@ -76,17 +152,19 @@ def whole(s, e, gap, w, path, h, T, modes, each, made):
         area_y += w_i * (held.imag if sticks else (area.imag if slips else 0.0))
         moment_x += w_i * (lever.real if sticks else (moment.real if slips else 0.0))
         moment_y += w_i * (lever.imag if sticks else (moment.imag if slips else 0.0))
-        end_x += w_i * (f.real if sticks else (f_1[0].real if slips else 0.0))
-        end_y += w_i * (f.imag if sticks else (f_1[0].imag if slips else 0.0))
+        R_end, f_end = max(z_0 + sink + T * zd, 0.0), e_0 + go + scaled(T, xd)  # by the true rates
+        f_end = scaled(min(1.0, R_end / max(size_of(f_end), TINY)), f_end) if sticks else scaled(R_end, n_1)
+        end_x += w_i * (f_end.real if sticks | slips else 0.0)
+        end_y += w_i * (f_end.imag if sticks | slips else 0.0)
         sticking += w_i if sticks else 0.0
         bears = w_i if sticks | slips else 0.0
-        share += bears
+        share += bears if R_end > 0.0 else 0.0
         pressed += bears * h * (R.a + h * (0.5 * R.b + h / 3.0 * R.c))
         pressed_moment += bears * h * h * (0.5 * R.a + h * (R.b / 3.0 + 0.25 * h * R.c))
-        pressed_end += bears * R_1
+        pressed_end += bears * R_end
         if each is not None:
-            each.pressed_for[i], each.f_z[i] = (1.0, R_1) if sticks | slips else (0.0, 0.0)
-            each.f[i] = f if sticks else f_1[0] if slips else 0.0j
+            each.pressed_for[i], each.f_z[i] = (1.0, R_end) if sticks | slips else (0.0, 0.0)
+            each.f[i] = f_end if sticks | slips else 0.0j
         e_1 = scaled(R_1 + T * l_1, n_1) - scaled(T, top)
         if viscous:
             e_1 = yielded(e_0, f_0[0], f_1[0], area, moment, h, T, phi) if h < T else e_1

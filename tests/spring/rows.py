@@ -4,12 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mdr.spring import row as of
 from mdr.spring.contact import Each, Look, press
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, nodes_of
 from mdr.spring.law import law_of
 from mdr.spring.path import Path
-from mdr.spring.row import row
 from mdr.spring.times import tools_for
+from mdr.tools.jit import compiled
 
 MATERIALS = {
     "elastic": (0.0, (), ()),
@@ -20,6 +21,12 @@ MATERIALS = {
     "three arms": (0.0, (0.5, 3.0, 1.0), (0.02, 0.4, 50.0)),
     "three arms and dashpot": (0.1, (0.5, 3.0, 1.0), (0.02, 0.4, 50.0)),
 }
+
+
+@compiled(nogil=True, error_model="numpy")
+def row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    """The row of the library, which compiled functions alone may call."""
+    return of.row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,12 +123,15 @@ class Row:
             look.sums[LEAST_SLIP] = np.inf
         return self.stepped(look=looks), looks
 
-    def at_once(self):
-        """Sums over all springs in one call."""
-        e, s, end = self.e.copy(), self.s.copy(), self.from_then(self.h)
-        tools = tools_for(self.law, self.h)
-        of = row(s, e, self.gap, self.w, self.path, end.z_1, end.x_1, *self.law, tools, None, None, None)
-        return e, s, (of.area, of.moment, of.stuck)
+    def at_once(self, rates=None, each=False):
+        """All springs in one call: e, s, the answer, the excess, and what each spring does if it is asked for, for
+        which all are followed from event to event. rates: other ones at the end than those of the parabolas.
+        """
+        e, s, end, n = self.e.copy(), self.s.copy(), self.from_then(self.h), self.gap.size
+        tools, excess = tools_for(self.law, self.h), np.full((s.shape[0], 1), np.nan)
+        seen, rates = Each(*np.empty((3, n))) if each else None, rates or (end.z_1, end.x_1)
+        of = row(s, e, self.gap, self.w, self.path, *rates, *self.law, tools, excess, seen, None)
+        return e, s, of, excess, seen
 
     def pressed(self):
         """Compressions, sums of area and moment, and for how long each has pressed, without friction."""

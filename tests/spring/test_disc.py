@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from rows import row
 
 from mdr.spring.contact import Each, Look
 from mdr.spring.energies import N_SUMS, nodes_of
 from mdr.spring.law import law_of
 from mdr.spring.path import Path
-from mdr.spring.row import row, row_in_plane
 from mdr.spring.times import tools_for
 
 LAWS = {"elastic": law_of(0.0), "kelvin": law_of(0.4), "two arms": law_of(0.0, (1.0, 0.5), (1.0, 5.0))}
@@ -26,10 +26,10 @@ def some_springs(law, rng, n=40):
     return gap, np.full(n, 1 / n), s, e
 
 
-def answer(law, s, e, gap, w, path, h):
-    """That of the row in the plane; s and e are updated."""
-    rates = path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2
-    return row_in_plane(s, e, gap, w, path, *rates, *law, tools_for(law, h, in_plane=True), None, None)
+def answer(law, s, e, gap, w, path, h, rates=None):
+    """That of the row in the plane; s and e are updated. rates: other ones at the end than those of the parabolas."""
+    rates = rates or (path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2)
+    return row(s, e, gap, w, path, *rates, *law, tools_for(law, h, in_plane=True), None, None, None)
 
 
 def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
@@ -194,16 +194,16 @@ def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(law):
         x_1, x_2 = (complex(*rng.normal(0, size, 2)) for size in (3, 20))
         path, n = Path(0.0, rng.uniform(-2, 1), rng.uniform(-5, 5), x_1, x_2), gap.size
         s_1, e_1, s_2, e_2 = s.copy(), e.copy(), s.copy(), e.copy()
-        rates = path.z_1 + 2 * H * path.z_2, x_1 + 2 * H * x_2
+        rates = rng.uniform(-2, 1), complex(*rng.normal(0, 3, 2))  # at the end, not those of the parabolas
         nodes, tools = nodes_of(H, law.modes, law.arms), tools_for(law, H, in_plane=True)
         look = Look(nodes, np.zeros(N_SUMS), np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
-        of, each = answer(law, s_1, e_1, gap, w, path, H), Each(np.empty(n), np.empty(n, complex), np.empty(n))
-        known = row_in_plane(s_2, e_2, gap, w, path, *rates, *law, tools, each, look)
+        of, each = answer(law, s_1, e_1, gap, w, path, H, rates), Each(np.empty(n), np.empty(n, complex), np.empty(n))
+        known = row(s_2, e_2, gap, w, path, *rates, *law, tools, None, each, look)
         assert len(set(look.mode)) > 1
         assert_allclose(s_1, s_2, rtol=0, atol=1e-14)
         assert_allclose(e_1, e_2, rtol=0, atol=3e-14)
         assert_allclose(of, known, rtol=0, atol=3e-14)
         each_1 = Each(np.empty(n), np.empty(n, complex), np.empty(n))
-        row_in_plane(s.copy(), e.copy(), gap, w, path, *rates, *law, tools, each_1, None)
+        row(s.copy(), e.copy(), gap, w, path, *rates, *law, tools, None, each_1, None)
         for one, other in zip(each_1, each, strict=True):
             assert_allclose(one, other, rtol=0, atol=1e-13)

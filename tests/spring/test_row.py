@@ -6,12 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
-from rows import MATERIALS, Row
+from rows import MATERIALS, Row, row
 
 from mdr.spring import contact_modes as of
 from mdr.spring import energies
 from mdr.spring.path import Ends, zero_of_parabola
-from mdr.spring.row import as_they_are, row
+from mdr.spring.row import as_they_are
 from mdr.spring.times import tools_for
 
 TINY = 4000
@@ -33,9 +33,26 @@ def test_a_step_may_be_cut_into_seven(material):
 @every_material
 def test_a_row_is_the_sum_of_its_springs(material):
     one = rows(material)[0]
-    (e, s, *sums), (e_all, s_all, all_sums) = one.stepped(), one.at_once()
+    (e, s, *sums), (e_all, s_all, of_all, *_) = one.stepped(), one.at_once()
+    all_sums = of_all.area, of_all.moment, of_all.stuck
     for whole, each in ((e_all, e), (s_all, s), (all_sums, np.array(sums) @ one.w)):
         assert_allclose(whole, each, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["elastic", "Kelvin", "quick Kelvin"])
+def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(name):
+    """In short steps, in which most do; with rates at the end that are not those of the parabolas."""
+    met = set()
+    for seed in range(40):
+        one = Row.draw(np.random.default_rng(seed), MATERIALS[name], h=0.02)
+        rates = tuple(np.random.default_rng(seed).uniform(-1, 1, 2))
+        (*lean, _), (*known, each) = one.at_once(rates), one.at_once(rates, each=True)
+        for a, b in zip(lean, known, strict=True):
+            assert_allclose(a, b, rtol=0, atol=1e-14)
+        whole, presses = each.pressed_for == 1, each.f_z > 0
+        of_kinds = whole & (np.abs(each.f) < each.f_z), presses & (each.f == each.f_z), presses & (each.f == -each.f_z)
+        met |= {kind for kind, who in enumerate((*of_kinds, ~presses)) if who.any()}
+    assert met == {0, 1, 2, 3}  # stick, slip, slip back, flight
 
 
 @every_material

@@ -12,15 +12,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba.core.types import NoneType
-from numba.extending import overload
 
 from mdr.march.dynamics.body import RATE, Y
 from mdr.spring.contact import Look, within
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
 from mdr.spring.motion import glassy
 from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path, along
-from mdr.spring.row import any_row, as_they_are
+from mdr.spring.row import as_they_are, row
 from mdr.spring.times import tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
@@ -155,9 +153,9 @@ def later(path, t):
 def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and of_body (N_BODY,) are updated in place.
 
-    body, side: Body along the pull and across it. Along a line side is None, and body too if it is rigid; in the plane
-    neither is. slip: the FullSlipForce of a body along a line, else None; flight (n_t,): of a light one there, time to
-    the first touch in a step that begins without contact, else zero. What is None is compiled away. trace: filled.
+    body, side: Body along the pull and across it; along a line side is None. slip: the FullSlipForce of a body along a
+    line, else None; flight (n_t,): of a light one there, time to the first touch in a step that begins without contact,
+    else zero. What is None is compiled away. trace: filled.
     Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
@@ -177,40 +175,13 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
                 e, s, room, of_body, last, body, springs, here, slip, flight, flight[k], law, tools, j, trace
             )
         else:
-            path, area, moment, last, found = any_step(
+            path, area, moment, last, found = stepped(
                 e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools
             )
             note(trace, j, 1, h, path)
         solved = solved and found
         trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, of_body[Y], of_body[RATE]
     return solved
-
-
-@_inline
-def all_springs(s, e, springs, path, z_dot, x_dot, law, tools, excess, look):
-    """A step of the row, along a line or in the plane."""
-    (gap, w), (T, modes, arms) = springs, law
-    return any_row(s, e, gap, w, path, z_dot, x_dot, T, modes, arms, tools, excess, None, look)
-
-
-def any_step(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
-    """A step of springs, and of a body if there is one; as of `stepped`."""
-    if body is None:
-        of = all_springs(s, e, springs, here.path, here.z_dot, here.x_dot, law, tools, None, None)
-        return here.path, of.area, of.moment, last, True
-    return stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools)
-
-
-@overload(any_step, inline="never")
-def _(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
-    def of_springs(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
-        of = all_springs(s, e, springs, here.path, here.z_dot, here.x_dot, law, tools, None, None)
-        return here.path, of.area, of.moment, last, True
-
-    def of_both(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
-        return stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools)
-
-    return of_springs if isinstance(body, NoneType) else of_both
 
 
 @_lent
@@ -225,7 +196,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and whether this
     was solved; e, s, of_body are updated.
     """
-    e_0, s_0, excess = room
+    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
     h, path, found = tools.times.h, here.path, False
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -248,7 +219,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             if not fresh:
                 put(e_0, e)
                 put(s_0, s)
-            of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, excess, None)
+            of = row(s, e, gap, w, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
             fresh, last = False, Last(of.sticking, of.back)
             area, moment, end, stick = of.area, of.moment, of.end, (of.stuck, of.stuck_moment, of.sticking)
         ahead, found = newton_step(
@@ -391,12 +362,12 @@ def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
-    e_0, s_0, excess = room
+    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
     put(e_0, e)
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
-    of = all_springs(s, e, springs, path, here.z_dot, here.x_dot + rate, law, tools, excess, None)
+    of = row(s, e, gap, w, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
     left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 
@@ -462,7 +433,8 @@ def within_friction(e, s):
 @_jit
 def look(e, s, springs, motion, law, tools, trace, seen):
     """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
-    h, n, kept = tools.times.h, springs.gap.size, seen.mode.shape[0]
+    (gap, w), (T, modes, arms) = springs, law
+    h, n, kept = tools.times.h, gap.size, seen.mode.shape[0]
     mode, f_z, f, F = np.empty(n), np.empty(n), np.empty_like(e[0]), np.empty(4)
     for k in range(motion.z.size - 1):
         path = path_of(motion, k, h)
@@ -478,8 +450,11 @@ def look(e, s, springs, motion, law, tools, trace, seen):
             if part == 1:
                 zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1] + trace.rate[k]
             into = Look(nodes, seen.sums, F, mode, f, f_z)
-            of = all_springs(s, e, springs, here, zd, xd, law, now, None, into)
+            of = row(s, e, gap, w, here, zd, xd, T, modes, arms, now, None, None, into)
             seen.sums[SHEAR_WORK] += along(x_1, of.area) + 2.0 * along(x_2, of.moment)
-        seen.F[k] = F
+        copy(F, seen.F[k])
         if kept > 0:
-            seen.mode[k], seen.f[k], seen.f_z[k], seen.e[k], seen.s[k] = mode, f, f_z, e[0], s[0]
+            for one, out in ((mode, seen.mode), (f_z, seen.f_z), (s[0], seen.s)):
+                copy(one, out[k])
+            for one, out in ((f, seen.f), (e[0], seen.e)):
+                copy(one, out[k])

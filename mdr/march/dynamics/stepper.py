@@ -90,7 +90,7 @@ class Stepper:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
         in_plane, self.motion = scaled.ways == 2, scaled.drive.with_pull(v)
         self.parts = (
-            scaled.body if in_plane or not scaled.body.rigid else None,
+            scaled.body,
             scaled.body_across if in_plane else None,
             scaled.springs,
             *scaled.full_slip_force,
