@@ -113,8 +113,14 @@ class Browser:
         from selenium.webdriver.common.keys import Keys
 
         box = self.inside(named("box", path), "input")
-        # typed over what stands there: to empty the box first would be a change, whose answer may overwrite the text
-        box.send_keys(Keys.CONTROL + "a" + Keys.NULL + text + Keys.ENTER)
+
+        def stands():
+            # typed over what stands there: to empty the box first would be a change; an answer may overwrite the text
+            box.send_keys(Keys.CONTROL + "a" + Keys.NULL + text)
+            return box.get_attribute("value") == text
+
+        self.until(stands)
+        box.send_keys(Keys.ENTER)
 
     def move(self, path, steps):
         from selenium.webdriver.common.keys import Keys
