@@ -14,7 +14,6 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
-from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import cof_curve
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
@@ -183,8 +182,8 @@ def no_load_velocity(case: SlidingContact) -> float:
 def _free(case: SlidingContact) -> float:
     if not np.isfinite(case.pace):
         raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
-    if is_across_alone(case):
-        return 0.0  # both ways are alike
+    if case.is_alike_both_ways:
+        return 0.0  # as the friction of a pull the other way is its mirror image
     # where the velocity of a contact that drives is looked for first
     low = 1e-3 * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)
@@ -198,7 +197,8 @@ def _free(case: SlidingContact) -> float:
         low, high = high, 2 * high
     from scipy.optimize import brentq
 
-    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=SAME * case.pace, rtol=SAME))
+    close = SAME if has_closed_form(ahead) else BUDGET / 10  # a run knows its friction to no more than BUDGET
+    return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=close * case.pace, rtol=close))
 
 
 def _cof(case: SlidingContact, v_0: float) -> float:

@@ -1,5 +1,6 @@
 """The step of a row of springs with friction, `row`: along a line, or in the plane where e is complex. Lengths are
-scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py).
+scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py). Without arms and a
+look, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
 
 gap, w (n,): depth of each foot, share in the stiffness. s, e (1 + J, n), updated: row 0 is compression and extension,
 row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: of the step (times.py). excess,
@@ -44,7 +45,7 @@ def _(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
 
 
 def _row(in_plane, lean_in_plane, lean):
-    """The function for a kind of row; lean: springs that do one thing for all of the step go first."""
+    """The function for a kind of row; lean: whether springs that do one thing for all of the step go first."""
     if in_plane:
         return _in_plane_lean if lean_in_plane else _in_plane
     return _on_line_lean if lean else _on_line

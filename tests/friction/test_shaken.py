@@ -9,6 +9,7 @@ from conftest import SHAPES
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.friction import shaken
 from mdr.friction.cof_curve import friction_without_bound
 from mdr.friction.shaken import band_of_pull
 from mdr.march.dynamics.body import Y
@@ -131,6 +132,14 @@ def test_a_shake_alone_leaves_the_band_that_its_amplitude_does_not_take(shape):
     gone = contact(shape, chi=1.01)
     assert mdr.holding_band(gone).is_one_number
     assert mdr.blocked_cof(gone) == pytest.approx(0, abs=1e-9)
+
+
+def test_what_is_alike_both_ways_has_no_load_at_rest_and_no_run_is_needed(monkeypatch):
+    monkeypatch.setattr(shaken, "slide", None)
+    monkeypatch.setattr(shaken, "cof_curve", None)
+    across = mdr.InPlaneOscillation(omega=OMEGA, du_y=2 * REACH)
+    for shake in (None, across):
+        assert mdr.no_load_velocity(replace(body(contact(alpha=0.75)), shake=shake)) == 0
 
 
 @pytest.mark.parametrize("pull", ["rigid", "body"])
