@@ -1,4 +1,4 @@
-"""How fast the library is: beside another checkout, over springs, steps and periods, and for a digit more.
+"""How fast the library is: by kind of contact, over springs, steps and periods, for a digit more, beside another one.
 
     python -m validation.performance [-o folder]
     python -m validation.performance --against PATH [--random 60] [--study 1000]
@@ -25,6 +25,7 @@ import mdr
 from mdr.case.contact import SlidingContact
 from mdr.studies.engine import cores
 from validation.cases import contact
+from validation.performance.points import costs
 from validation.performance.waits import STANDING, alternately
 
 N_SPRINGS, STEPS, N_PERIODS = 1000, 1024, 100
@@ -112,9 +113,16 @@ def digits(label: str, case: SlidingContact) -> list[Row]:
     return [ratio(f"{label}: time to {one} of mu_0 / to {first}", seconds[one], seconds[first]) for one in others]
 
 
+def points() -> list[Row]:
+    """Milliseconds of a point of a study by kind, and the part of compiled code."""
+    whats = ((f"{kind}: {1e3 * compiled:.3g} ms of them compiled", whole) for kind, whole, compiled in costs())
+    return [{"what": what, "ratio": 1e3 * whole} for what, whole in whats]
+
+
 def tables() -> dict[str, list[Row]]:
-    """All tables by their titles; a minute or two."""
+    """All tables by their titles; a few minutes."""
     return {
+        "milliseconds of a point": points(),
         "scaling": [
             row for label, case in CASES.items() for one in (scaling, threads, memory) for row in one(label, case)
         ],
