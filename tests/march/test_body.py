@@ -187,6 +187,19 @@ def test_steps_resolve_how_slow_dashpots_stop_a_body_whose_friction_turns(T):
     assert (run.cof, run.cof_y) == pytest.approx((fine.cof, fine.cof_y), abs=run.cof_error)
 
 
+def test_a_pull_without_mass_is_the_limit_of_small_masses_where_friction_turns_on_dashpots():
+    """What slip along one direction does to the other decides there; without it no step was found."""
+    case, runs = on_slow_dashpots(0.3), []
+    for m in (0.0, 0.0025, 0.005):  # times k/omega**2: the limit is linear in it
+        one = replace(case, pull=replace(case.pull, m=m * case.pull.k_x / 300.0**2))
+        runs.append(mdr.slide(one, 0.5 * case.unit_velocity))
+        assert runs[-1].settled
+        assert runs[-1].cof_error < BUDGET * case.mu_0
+    none, half, full = ((run.cof, run.cof_y) for run in runs)
+    assert none == pytest.approx(2 * np.array(half) - full, abs=sum(run.cof_error for run in runs) + 2e-5 * case.mu_0)
+    assert np.abs(np.subtract(none, full)).max() > 1e-4 * case.mu_0
+
+
 def test_a_body_that_no_step_resolves_ends_at_once_and_says_why():
     case = on_slow_dashpots(1e5)
     run = mdr.slide(case, 0.5 * case.unit_velocity)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.broyden import ROOM, correct
 from mdr.spring.contact import Look, within
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
 from mdr.spring.motion import glassy
@@ -34,6 +35,7 @@ SHORTEST_PART = (
 MOST_ITERATIONS = (
     32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
 )
+PLAIN = 2  #: iterations of a step in the plane, before what slip along one direction does to the other is learned
 MOST_PLACES = 99  #: in the search for a zero of one unknown
 BALANCED = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
 
@@ -160,7 +162,7 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
     excess = np.zeros((s.shape[0], 1))
-    room = np.empty_like(e), np.empty_like(s), excess
+    room = np.empty_like(e), np.empty_like(s), excess, np.empty((4 + ROOM, 4))
     for j in range(n_steps):
         k = j % n_t
         trace.parts[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
@@ -196,7 +198,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and whether this
     was solved; e, s, of_body are updated.
     """
-    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
+    (gap, w), (T, modes, arms), (e_0, s_0, excess, past) = springs, law, room
     h, path, found = tools.times.h, here.path, False
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -221,21 +223,52 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
                 put(s_0, s)
             of = row(s, e, gap, w, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
             fresh, last = False, Last(of.sticking, of.back)
-            area, moment, end, stick = of.area, of.moment, of.end, (of.stuck, of.stuck_moment, of.sticking)
-        ahead, found = newton_step(
+            area, moment, end = of.area, of.moment, of.end
+            if side is None or iteration <= PLAIN:
+                stick = of.stuck, of.stuck_moment, of.sticking
+        next_ahead, found = newton_step(
             ahead, y_0.real, rate_0.real, area.real, moment.real, end.real, stick, here.v, body, law, h
         )
         if side is not None:
-            aside, other = newton_step(
+            next_aside, other = newton_step(
                 aside, y_0.imag, rate_0.imag, area.imag, moment.imag, end.imag, stick, here.v, side, law, h
             )
             found = found and other
+            if iteration >= PLAIN and not found:
+                next_ahead, next_aside = together(
+                    ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, past, iteration == PLAIN, h
+                )
+            aside = next_aside
+        ahead = next_ahead
         if found and not fresh:
             break
     of_body[Y], of_body[RATE] = ahead.y, ahead.rate
     if side is not None:
         of_body[Y], of_body[RATE] = complex(ahead.y, aside.y), complex(ahead.rate, aside.rate)
     return path, area, moment, last, found
+
+
+@_lent
+def together(ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, past, begins, h):
+    """Bodies in two directions nearer to where the forces take them, from here and what each direction for itself makes
+    of it: Broyden's method (1965), which learns from step to step how a motion along one changes the force along the
+    other.
+
+    past (8, 4): of `correct`. begins: nothing is learned yet.
+    """
+    unit, unit_aside = 1.0 if body.light else h, 1.0 if side.light else h
+    left = (
+        ahead.y - next_ahead.y,
+        (ahead.q - next_ahead.q) * unit,
+        aside.y - next_aside.y,
+        (aside.q - next_aside.q) * unit_aside,
+    )
+    correct(past, left, begins)
+    change = past[4]
+    return (
+        motion_to(ahead.y + change[0], ahead.q + change[1] / unit, y_0.real, rate_0.real, body, h),
+        motion_to(aside.y + change[2], aside.q + change[3] / unit_aside, y_0.imag, rate_0.imag, side, h),
+    )
 
 
 @_inline
@@ -362,7 +395,7 @@ def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
-    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
+    (gap, w), (T, modes, arms), (e_0, s_0, excess, _) = springs, law, room
     put(e_0, e)
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
