@@ -1,4 +1,4 @@
-"""How fast the library is: by kind of contact, over springs, steps and periods, for a digit more, beside another one.
+"""How fast the library is: by kind of contact, over springs, steps and periods, for a digit more; beside a checkout.
 
     python -m validation.performance [-o folder]
     python -m validation.performance --against PATH [--random 60] [--study 1000]
@@ -116,7 +116,7 @@ def digits(label: str, case: SlidingContact) -> list[Row]:
 def points() -> list[Row]:
     """Milliseconds of a point of a study by kind, and the part of compiled code."""
     whats = ((f"{kind}: {1e3 * compiled:.3g} ms of them compiled", whole) for kind, whole, compiled in costs())
-    return [{"what": what, "ratio": 1e3 * whole} for what, whole in whats]
+    return [{"what": what, "ms": 1e3 * whole} for what, whole in whats]
 
 
 def tables() -> dict[str, list[Row]]:
@@ -172,7 +172,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"\n{title}")
         for row in rows:
             spread = f"   ({row['least']:.3g} ... {row['most']:.3g})" if "least" in row else ""
-            value = f"{row['ratio']:8.3g}" if "ratio" in row else " " * 8
+            value = f"{row.get('ratio', row.get('ms')):8.3g}"
             print(f"{value}{spread:22s} {row['what']}")
     if options.output:
         options.output.mkdir(parents=True, exist_ok=True)

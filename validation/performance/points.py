@@ -15,8 +15,8 @@ import numpy as np
 from numba.core.dispatcher import Dispatcher
 
 import mdr
+from validation.cases import DEPTH, OMEGA, SHAPES, any_contact, reach
 
-OMEGA, RADIUS, DEPTH = 300.0, 5e-3, 2e-5
 MATERIALS: dict[str, mdr.Material] = {
     "elastic": mdr.Elastic(E=3e6, nu=0.4),
     "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.4, tau=1e-3),
@@ -24,11 +24,11 @@ MATERIALS: dict[str, mdr.Material] = {
 }
 PULLS = "rigid", "body", "light"
 SHAKES = "", "shaken along", "shaken across"
-N_POINTS = 7
+N_POINTS = 7  #: of each kind
 
 
 class Clock:
-    """Processor time that compiled functions of the library take which Python calls."""
+    """Processor time [s] of the compiled functions of the library that Python calls."""
 
     def __init__(self) -> None:
         self.seconds = 0.0
@@ -61,10 +61,10 @@ def case_of(material: str, pull: str, shake: str, dice: np.random.Generator) -> 
     """A case of a kind, at an amplitude and a depth of its own."""
     depth = DEPTH * dice.uniform(0.8, 1.2)
     motion = mdr.NormalOscillation(u_z0=depth, du_z=dice.uniform(0.1, 0.9) * depth, omega=OMEGA)
-    case = mdr.SlidingContact(mdr.Paraboloid(R=RADIUS), MATERIALS[material], 0.4, motion)
+    case = any_contact(SHAPES["paraboloid"], MATERIALS[material], motion)
     if shake:
         ways = ("du_x",) if shake == "shaken along" else ("du_x", "du_y")
-        given = {name: dice.uniform(2e-6, 8e-6) for name in ways}
+        given = {name: dice.uniform(0.2, 1.0) * reach(case) for name in ways}
         case = replace(case, shake=mdr.InPlaneOscillation(omega=OMEGA, phi_x=dice.uniform(0, 6), **given))
     if pull != "rigid":
         k = 0.6 * case.k_xc

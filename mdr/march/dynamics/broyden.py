@@ -1,5 +1,5 @@
-"""Broyden's method (1965) for a few equations of which each look is dear: the matrix of derivatives is learned from
-what the last changes have brought.
+"""Broyden's method (1965) for a few equations that are dear to evaluate: the inverse of their derivatives is learned
+from what the last changes of the unknowns have made of the residual.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -13,10 +13,10 @@ ROOM = 4  #: rows of `past` behind the matrix
 
 @inner(error_model="numpy", fastmath=FAST, **LENT)
 def correct(past, left, begins):
-    """Fill past[n], n the number of equations, with the change to be made of the unknowns, of which so much is left.
+    """Fill past[n] with the change of the n unknowns that comes next.
 
-    past (n + ROOM, n): the inverse of the matrix, at first that of unity; the last change, what was left before it, and
-    room to work in; updated. left (n,): a tuple.
+    past (n + ROOM, n), updated: the inverse of the derivatives, at first the unit matrix; the last change, the residual
+    before it, and room to work in. left (n,): the residual now, a tuple. begins: whether nothing is learned yet.
     """
     n = past.shape[1]
     inverse, change, before, gives, takes = past[:n], past[n], past[n + 1], past[n + 2], past[n + 3]

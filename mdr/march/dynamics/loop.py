@@ -192,11 +192,12 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
 
     Newton's method on its motion at the end, by the stiffness of what sticks. Along a line iteration 0 takes the force
     that the springs have if none changes its mode (`last`), which most often is the true one; and where other springs
-    stick under a light body at every iteration, `enclosed` finds them.
+    stick under a light body at every iteration, `enclosed` finds them. In the plane both directions go `together` after
+    the first iterations.
 
-    room: for e, s and the excess of `row`. flight: here it only tells a light body along a line. The others as of
-    `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and whether this
-    was solved; e, s, of_body are updated.
+    room: for e, s, the excess of `row`, and `correct`. flight: here it only tells a light body along a line. The others
+    as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
+    whether this was solved; e, s, of_body are updated.
     """
     (gap, w), (T, modes, arms), (e_0, s_0, excess, past) = springs, law, room
     h, path, found = tools.times.h, here.path, False
@@ -250,11 +251,11 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
 
 @_lent
 def together(ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, past, begins, h):
-    """Bodies in two directions nearer to where the forces take them, from here and what each direction for itself makes
-    of it: Broyden's method (1965), which learns from step to step how a motion along one changes the force along the
-    other.
+    """The motion of a body in both directions nearer to where the forces take it. ahead, aside: the motion now; next_:
+    what Newton's method makes of each direction for itself. Broyden's method learns from iteration to iteration what a
+    motion along one direction does to the force along the other.
 
-    past (8, 4): of `correct`. begins: nothing is learned yet.
+    past, begins: of `correct`.
     """
     unit, unit_aside = 1.0 if body.light else h, 1.0 if side.light else h
     left = (
