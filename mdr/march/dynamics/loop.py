@@ -161,8 +161,9 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
     Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
-    excess = np.zeros((s.shape[0], 1))
-    room = np.empty_like(e), np.empty_like(s), excess, np.empty((4 + ROOM, 4))
+    # in the plane, where a row has no excess, the room of `correct`: one more array costs a fifth of a step on a line
+    excess = np.zeros((s.shape[0], 1) if side is None else (4 + ROOM, 4))
+    room = np.empty_like(e), np.empty_like(s), excess
     for j in range(n_steps):
         k = j % n_t
         trace.parts[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
@@ -195,11 +196,11 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     stick under a light body at every iteration, `enclosed` finds them. In the plane both directions go `together` after
     the first iterations.
 
-    room: for e, s, the excess of `row`, and `correct`. flight: here it only tells a light body along a line. The others
+    room: for e, s, and the excess of `row` or `correct`. flight: here it only tells a light body along a line. The others
     as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
     whether this was solved; e, s, of_body are updated.
     """
-    (gap, w), (T, modes, arms), (e_0, s_0, excess, past) = springs, law, room
+    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
     h, path, found = tools.times.h, here.path, False
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -237,7 +238,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             found = found and other
             if iteration >= PLAIN and not found:
                 next_ahead, next_aside = together(
-                    ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, past, iteration == PLAIN, h
+                    ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, excess, iteration == PLAIN, h
                 )
             aside = next_aside
         ahead = next_ahead
@@ -396,7 +397,7 @@ def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
-    (gap, w), (T, modes, arms), (e_0, s_0, excess, _) = springs, law, room
+    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
     put(e_0, e)
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
