@@ -196,8 +196,8 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     stick under a light body at every iteration, `enclosed` finds them. In the plane both directions go `together` after
     the first iterations.
 
-    room: for e, s, and the excess of `row` or `correct`. flight: here it only tells a light body along a line. The others
-    as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
+    room: for e, s, and the excess of `row` or `correct`. flight: here it only tells a light body along a line. The
+    others as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
     whether this was solved; e, s, of_body are updated.
     """
     (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
