@@ -18,7 +18,8 @@ import numpy as np
 
 import mdr
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.stepper import MarchState, Stepper
+from mdr.march.dynamics.state import MarchState
+from mdr.march.dynamics.stepper import Stepper
 from mdr.spring.contact_modes import SLIP
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, OMEGA, SHAPES, contact

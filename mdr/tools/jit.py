@@ -73,7 +73,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
     """
 
     def wrap(function: Function) -> Any:
-        ready = _njit(no_cfunc_wrapper=True, **options)(function)
+        ready = _njit(**{"no_cfunc_wrapper": True, **options})(function)
         if ready is function:  # NUMBA_DISABLE_JIT
             return function
         try:

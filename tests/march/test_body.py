@@ -5,16 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from kernels import marched
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import mdr
 from mdr.march.dynamics.body import body_of, harmonics_of, light_harmonics_of, pushed
-from mdr.march.dynamics.loop import march, next_place
+from mdr.march.dynamics.body_step import next_place
 from mdr.march.periodic.steady import BUDGET, Resolution, at_hand
 from mdr.spring.law import law_of
-from mdr.spring.times import tools_for
 
 N = 64
 H = 2 * np.pi / N
@@ -141,11 +141,8 @@ def test_every_step_of_a_light_body_is_solved(indenter, material, motion, k_x, s
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(64, steps, "full_slip", True))
     for v in (0.05, 0.3, 0.8):
-        of_body = scaled.body, None, scaled.springs, *scaled.full_slip_force, scaled.drive.with_pull(v)
-        of_springs = scaled.law, tools_for(scaled.law, scaled.drive.h)
-        s, state = scaled.normal.s.copy(), scaled.full_slip.state(v).copy()  # contiguous, as march() is compiled for
         assert scaled.body.light
-        assert march(s.copy(), s, state, *of_body, *of_springs, 2 * steps, scaled.trace(2))
+        assert marched(scaled, v, 2)[-1]
 
 
 @pytest.mark.parametrize("tau", [1e-3, 1e-2])
@@ -213,11 +210,13 @@ def test_a_step_is_cut_at_a_touch_and_no_rounding_of_that_time_matters(start):
     indenter, material, motion, k_x = LIGHT[start]
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(16, 24, "full_slip", True))
-    drive, (slip, flight), ways = scaled.drive.with_pull(0.3), scaled.full_slip_force, []
+    flight, ways = scaled.normal.flight.copy(), []
     for change in (1 - 1e-12, 1.0, 1 + 1e-12):
-        s, state, trace = scaled.normal.s.copy(), scaled.full_slip.state(0.3).copy(), scaled.trace(2)
-        parts = slip, change * flight, drive, scaled.law, tools_for(scaled.law, scaled.drive.h)
-        assert march(s.copy(), s, state, scaled.body, None, scaled.springs, *parts, 48, trace)
+        scaled.normal.flight[:] = change * flight
+        other = replace(scaled)  # which has not been put in numbers yet
+        vars(other)["normal"] = scaled.normal
+        _, trace, solved = marched(other, 0.3, 2)
+        assert solved
         ways.append(trace.y)
     assert flight.any()
     assert_allclose(ways[::2], [ways[1]] * 2, rtol=0, atol=1e-10)

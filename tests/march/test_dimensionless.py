@@ -7,15 +7,14 @@ from operator import attrgetter
 import numpy as np
 import pytest
 from conftest import SHAPES, contact
+from kernels import marched
 from numpy.testing import assert_allclose
 from random_records import case_in_units
 
 import mdr
-from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import Y
 from mdr.march.dynamics.dimensionless import ScaledContact, fast_ratio
 from mdr.march.dynamics.stepper import Stepper
-from mdr.spring.times import tools_for
 
 STEPS = 256
 BODIES = {
@@ -135,16 +134,9 @@ def test_fast_ratio_is_a_resonance_on_the_storage_modulus(time):
 def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     scaled = scaled_of(shape, 4.0, T, **body)
     s, start = scaled.normal.s, scaled.full_slip.state()
-    e, held, trace = s.copy(), start.copy(), scaled.trace(3)
-    parts = (
-        scaled.springs,
-        *scaled.full_slip_force,
-        scaled.drive.with_pull(1e3),
-        scaled.law,
-        tools_for(scaled.law, scaled.drive.h),
-    )
-    assert loop.march(e, s.copy(), held, scaled.body, None, *parts, 3 * STEPS, trace)
-    area, y = trace.area, trace.y
+    state, trace, solved = marched(scaled, 1e3, 3)
+    assert solved
+    e, held, area, y = state.e, state.body, trace.area, trace.y
     # the rate of a light body takes a rounding of the force 1/h times
     size = np.abs(y).max() + np.abs(start).max()
     assert_allclose(held, start, rtol=0, atol=(1e-11 if scaled.body.light else 1e-15 * STEPS) * size)

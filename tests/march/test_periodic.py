@@ -6,42 +6,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import contact
+from kernels import fixed_point
 from twins import rigid_pull as reference
 
 import mdr
-from mdr.march.periodic import anderson, fixed_point
 from mdr.march.periodic.steady import MOST_ACCURATE, Resolution, steady
 
 RNG = np.random.default_rng(11)
 POINT = RNG.normal(size=6)
-PUSHES = (np.eye(6)[0], np.eye(6)[1])
-
-
-def itself(x):
-    return x
-
-
-def find(step, x):
-    """The fixed point by the march's own method, on a map of which the march knows nothing."""
-    how = fixed_point.Options()
-    at = how.by_anderson(x)
-    for _ in range(how.most):
-        at.start[:] = at.x
-        image = step(at.x.copy())
-        if anderson.combine(at, image, np.ones_like(image)):
-            break
-    change = at.changes[anderson.BEST]
-    near = fixed_point.Iterate(at.best, change) if math.isfinite(change) else None
-    return fixed_point.find(step, near, itself, lambda: PUSHES, how)
 
 
 def linear(slow, fast=0.01):
-    """A map with fixed point POINT: a slow block of two, as a body has, and fast ones, as springs are."""
-    slow = np.atleast_2d(slow)
+    """A map A x + b with fixed point POINT: a slow block of two, as a body has, and fast ones, as springs are."""
     A = fast * RNG.normal(size=(6, 6)) / 6
     A[:2, :] = 0
-    A[:2, :2] = slow
-    return lambda x: POINT + A @ (x - POINT)
+    A[:2, :2] = np.atleast_2d(slow)
+    return A, POINT - A @ POINT
 
 
 def turning(size, angle):
@@ -61,11 +41,11 @@ BLOCKS = {
 @pytest.mark.parametrize("block", BLOCKS.values(), ids=BLOCKS)
 def test_a_fixed_point_is_found_with_a_bound_on_its_distance(block):
     """Of a map that does not expand any is an answer, also one that motions turn around for ever."""
-    found = find(linear(block), POINT + RNG.normal(size=6))
-    assert np.linalg.norm(found.x - POINT) <= 2 * found.distance * np.linalg.norm(POINT)
-    assert found.distance < 1e-6
+    found = fixed_point(*linear(block), POINT + RNG.normal(size=6))
+    assert found.has_state[0]
+    assert np.linalg.norm(found.state[0] - POINT) <= found.spread[0] < 1e-6
     # x - P(x) = (1 - P') (x - x*); the fast motions, a hundredth, may add to it
-    assert found.gain == pytest.approx(1 / np.linalg.svd(np.eye(2) - block)[1][-1], rel=0.2)
+    assert found.gain[0] == pytest.approx(1 / np.linalg.svd(np.eye(2) - block)[1][-1], rel=0.2)
 
 
 @pytest.mark.parametrize(
@@ -74,34 +54,26 @@ def test_a_fixed_point_is_found_with_a_bound_on_its_distance(block):
     ids=["spiralling out", "running off", "period of two"],
 )
 def test_a_map_that_expands_is_none_of_friction(block):
-    assert find(linear(block), POINT + 1e-3 * RNG.normal(size=6)) is None
-
-
-def trimmed(angle, size):
-    """A beat around POINT that stick trims: beyond a line, at some distance from POINT, part of the way is taken back.
-
-    Both maps do not expand, so neither does one after the other; POINT itself lies beyond the line.
-    """
-    turn = linear(turning(1.0, angle))
-
-    def step(x):
-        y = turn(x)
-        y[0] -= 0.5 * max(y[0] - POINT[0] + size, 0.0)
-        return y
-
-    return step
+    assert not fixed_point(*linear(block), POINT + 1e-3 * RNG.normal(size=6)).has_state[0]
 
 
 @pytest.mark.parametrize("seed", range(10))
 @pytest.mark.parametrize("angle", [0.3, 1e-2])
 def test_a_slow_beat_that_stick_trims_is_not_waited_for(angle, seed):
-    step = trimmed(angle, 0.1)
-    found = find(step, POINT + np.random.default_rng(seed).normal(size=6))
-    assert np.linalg.norm(step(found.x) - found.x) < 1e-8
+    """A beat around POINT: beyond a line, at some distance from POINT, part of the way is taken back. Both maps do not
+    expand, so neither does one after the other; POINT itself lies beyond the line.
+    """
+    A, b = linear(turning(1.0, angle))
+    edge = POINT[0] - 0.1
+    found = fixed_point(A, b, POINT + np.random.default_rng(seed).normal(size=6), edge)
+    x = found.state[0]
+    image = A @ x + b
+    image[0] -= 0.5 * max(image[0] - edge, 0.0)
+    assert np.linalg.norm(image - x) < 1e-8
 
 
 def test_no_fixed_point_is_no_answer():
-    assert find(lambda x: x + 1.0, np.zeros(6)) is None
+    assert not fixed_point(np.eye(6), np.ones(6), np.zeros(6)).has_state[0]
 
 
 # --- bodies -----------------------------------------------------------------------------------------------------
@@ -150,8 +122,7 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
     with monkeypatch.context() as patch:
         without_search(patch)
         untouched = steady(case, v_0, knobs)
-    search = fixed_point.find
-    monkeypatch.setattr(fixed_point, "find", lambda *args: search(*args) and None)
+    monkeypatch.setattr("mdr.march.periodic.search.orbit_of", lambda *args: None)
     failed = steady(case, v_0, knobs)
     assert failed.cof == untouched.cof
     assert failed.n_periods == untouched.n_periods
@@ -160,8 +131,7 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
 @pytest.mark.filterwarnings("error")
 def test_a_state_of_nothing_can_be_pushed_too():
     """At phase 0 every spring may be in flight and forget all it knew."""
-    found = find(lambda x: 0.1 * x, np.zeros(6))
-    assert found.gain == pytest.approx(1 / 0.9)
+    assert fixed_point(0.1 * np.eye(6), np.zeros(6), np.zeros(6)).gain[0] == pytest.approx(1 / 0.9)
 
 
 @pytest.mark.parametrize("k_x", [1.0, 0.3, 1e-2, 1e-3, 1e-4, 1e-5])

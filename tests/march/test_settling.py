@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr.march.dynamics.energy import OF_MEMORY, does_not_close, energy_balance
-from mdr.march.dynamics.stepper import UNKNOWN
+from mdr.march.dynamics.state import UNKNOWN
 from mdr.march.periodic.settling import MIN_PERIODS, assess, smooth_mean
 from mdr.march.periodic.steady import Resolution, looked_at, steady
 from mdr.spring.energies import FRICTION_LOSS

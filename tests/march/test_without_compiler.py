@@ -12,7 +12,7 @@ import pytest
 import small_runs
 from numpy.testing import assert_allclose
 
-from mdr.march.dynamics.loop import SHORTEST_PART
+from mdr.march.dynamics.body_step import SHORTEST_PART
 
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")

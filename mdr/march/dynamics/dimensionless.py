@@ -19,6 +19,7 @@ from mdr.case.depth_cycle import harmonic_sum
 from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import Body, body_of
 from mdr.march.dynamics.full_slip import FullSlip
+from mdr.march.dynamics.kernel import Is, Kernel, block_of
 from mdr.materials.operator import SLOWEST, Rheology
 from mdr.normal.springs import SpringArray
 from mdr.spring.law import Law, law_of
@@ -161,6 +162,11 @@ class ScaledContact:
         """Directions in the plane in which springs are stretched."""
         return 1 if self.drive.across is None else 2
 
+    @property
+    def in_plane(self) -> Is:
+        """Whether they are vectors of the plane, as a kernel is told."""
+        return None if self.drive.across is None else True
+
     @classmethod
     def of(cls, case: SlidingContact, springs: SpringArray, steps: int, lump: bool) -> ScaledContact:
         """Scale a case, its springs and its motion; springs that all stand alike become one if asked."""
@@ -203,12 +209,11 @@ class ScaledContact:
         """The body in full slip."""
         return FullSlip(self.body, self.normal, self.drive.z_dot - self.drive.along.x_dot, self.drive.pace(0.0))
 
-    def trace(self, n_periods: int = 1) -> loop.Trace:
-        """Room for what a march leaves of its steps."""
-        n_steps = n_periods * self.drive.steps
-        kind = float if self.ways == 1 else complex
-        area, moment, y, rate = np.empty((4, n_steps), kind)
-        return loop.Trace(area, moment, y, rate, np.empty((n_steps, 2, 3), kind))
+    @cached_property
+    def in_numbers(self) -> tuple[Kernel, Array]:
+        """What marches it, and all that this has to know of it but the velocity."""
+        bodies = self.body, self.body_across
+        return block_of(self.springs, self.drive.with_pull(0.0), self.law, bodies, *self.full_slip_force)
 
 
 def _settled(row: loop.Springs, drive: Drive, law: Law) -> NormalPeriod:

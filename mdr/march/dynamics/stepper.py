@@ -7,57 +7,25 @@ form and the velocity of the pull, and counts the periods that it marched.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
 from mdr.march.dynamics.dimensionless import ScaledContact, Way
+from mdr.march.dynamics.kernel import new_trace, trace_of
+from mdr.march.dynamics.marches import lacking
+from mdr.march.dynamics.state import TOLD, MarchState, tell, within_friction
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
-from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
-UNKNOWN = 2.0  #: error of a cof/mu_0 of which nothing is known: it lies between -1 and 1
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
-LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
-WITH_IT = 0.5  #: of the way of the pull, on which a spring may go with it or lose and still count as slipping as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
-
-
-class MarchState:
-    """Springs and body between two periods.
-
-    All that friction can change stands in one vector, of which the named parts are views: real along a line, complex
-    in the plane.
-    """
-
-    __slots__ = ("body", "e", "s", "x")
-
-    def __init__(self, x: Array, s: Array) -> None:
-        self.x = x  #: (n_x,) extensions, then the body; real parts and imaginary ones in turn
-        vector: NDArray[Any] = x if x.size == s.size + N_BODY else x.view(complex)
-        self.s = s  #: (1 + J, n) compressions, and their arms
-        self.e: NDArray[Any] = vector[: s.size].reshape(s.shape)  #: (1 + J, n) extensions and arms
-        self.body = vector[s.size :]  #: (N_BODY,) see body.py
-
-    @classmethod
-    def of(cls, e: NDArray[Any], s: Array, body: NDArray[Any]) -> MarchState:
-        """The state of these parts, copied."""
-        return cls(np.concatenate([e.ravel(), body]).view(float), s.copy())
-
-    def copy(self) -> MarchState:
-        """A state that can be marched on without a change of this one."""
-        return MarchState(self.x.copy(), self.s.copy())
-
-    def with_vector(self, x: Array) -> MarchState:
-        """The state that a vector stands for; a copy."""
-        return MarchState(x.copy(), self.s.copy())
 
 
 class Periods(NamedTuple):
@@ -88,19 +56,12 @@ class Stepper:
 
     def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
-        in_plane, self.motion = scaled.ways == 2, scaled.drive.with_pull(v)
-        self.parts = (
-            scaled.body,
-            scaled.body_across if in_plane else None,
-            scaled.springs,
-            *scaled.full_slip_force,
-            self.motion,
-            scaled.law,
-            tools_for(scaled.law, scaled.drive.h, in_plane),
-        )
+        self.motion = scaled.drive.with_pull(v)
+        self.kernel, self.block = scaled.in_numbers
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
         self.solved = True  # whether every step of the last march was solved for
+        self.told = np.empty(TOLD)  # what its last period came to, see state.py
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
 
     def full_slip(self) -> MarchState:
@@ -144,20 +105,17 @@ class Stepper:
         periods: in a periodic motion each does, however slow the pull, and however little a state changes that has
         hardly moved.
         """
-        (gap, w), drive, pull = self.scaled.springs, self.scaled.drive, 2 * np.pi * self.v
-        if pull <= drive.steps * LOST * (1 + np.abs(gap).max()):
-            return UNKNOWN if pull else 0.0
-        went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
-        late = np.abs(went) > WITH_IT * n_periods * pull
-        return 2 * float(w[late] @ np.maximum(drive.z.max() - gap[late], 0.0)) / self.mean_F_z
+        block, v, mean = self.block[None], np.array([self.v]), np.array([self.mean_F_z])
+        return float(lacking(block, v, (after.x - before.x)[None], n_periods, mean)[0])
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
-        trace = self.scaled.trace(n_periods)
-        n_steps = n_periods * self.scaled.drive.steps
-        self.solved = loop.march(state.e, state.s, state.body, *self.parts, n_steps, trace)
+        n_steps, in_plane = n_periods * self.scaled.drive.steps, self.scaled.in_plane
+        flat = new_trace(n_steps, self.scaled.ways)
+        self.solved = self.kernel(self.block, self.v, state.x, state.s, n_steps, flat)
+        tell(self.block, flat, self.mean_F_z, self.told)
         self.count(n_periods)
-        return trace
+        return trace_of(flat, n_steps, in_plane)  # type: ignore[no-any-return, no-untyped-call]
 
     def count(self, n_periods: int) -> None:
         """Add periods to those that were marched."""
@@ -183,9 +141,9 @@ class Stepper:
         seen = loop.Seen(nodes, sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
-        _, _, springs, _, _, motion, law, tools = self.parts
+        tools = tools_for(scaled.law, scaled.drive.h, scaled.ways == 2)
         sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
-        loop.look(passed.e, passed.s, springs, motion, law, tools, trace, seen)
+        loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, tools, trace, seen)
         if scaled.drive.across is None:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:
@@ -202,7 +160,7 @@ class Stepper:
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""
-        loop.within_friction(state.e, state.s)
+        within_friction(state.x, state.s)
         return state
 
     def stored_energy(self, state: MarchState) -> float:

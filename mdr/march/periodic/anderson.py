@@ -1,4 +1,6 @@
-"""The compiled search for a state that returns after a period: Anderson's method on the march (loop.py)."""
+"""The compiled search for states that return after a period, by Anderson's method (1965; Walker & Ni 2011): of the last
+few periods the combination whose change over a period is least; from there the march goes on.
+"""
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
@@ -8,103 +10,122 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.dynamics.loop import copy, march, put, within_friction
+from mdr.march.dynamics.body_step import copy, put
+from mdr.march.dynamics.kernel import N_T
+from mdr.march.dynamics.marches import Marches, Which
+from mdr.march.dynamics.state import TOLD, tell, within_friction
+from mdr.spring.path import OWN
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled
+from mdr.tools.jit import compiled, inner
 
-_jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+PATIENCE = 30  #: periods without a smaller change, or with steps that were not solved for, after which it gives up
+GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
 
+# states of a search: that which the next period starts from; that from which the last one did; what it came to; how far
+# that was, measured; the image that moved least; the last image, and what was its move
+X, START, IMAGE, MOVED, BEST, LAST, LAST_MOVED, STATES = range(8)
+IMAGES, MOVES = range(2)  # what is kept of the past: from image to image, oldest first; from move to move, measured
+# counts: periods so far, those combined now, the one that moved least, the last ones with an unsolved step; whether it
+# has ended; periods before the first combination, and after which it gives up
+PERIODS, KEPT, SINCE, UNSOLVED, ENDED, PLAIN, MOST, COUNTS = range(8)
+# changes over a period, over the size of the state: the least of those combined, the least of all, and that at which it
+# ends
+LEAST_KEPT, LEAST, ENOUGH, CHANGES = range(4)
 
-# counts of a search: periods so far, those combined now, the one that moved least, the last ones with an unsolved step
-PERIODS, KEPT, SINCE, UNSOLVED = range(4)
-LEAST, BEST = range(2)  # its changes over a period, over the size of the state: least of those combined, and of all
+_FAST = {"reassoc", "contract"}
+_inner = inner(error_model="numpy", fastmath=_FAST, **OWN)
 
 
 class Search(NamedTuple):
-    """Anderson's method on its way to a state that returns after a period, updated in place. Measured is a state as a
-    vector whose length is the root of its energy.
+    """Searches of C contacts on their way, updated in place."""
+
+    states: Array  #: (C, STATES, n_x)
+    past: Array  #: (C, 2, memory, n_x)
+    counts: NDArray[np.int64]  #: (C, COUNTS)
+    changes: Array  #: (C, CHANGES)
+    told: Array  #: (C, TOLD) of the last period, see state.py
+
+    @classmethod
+    def of(cls, n: int, n_x: int, memory: int, plain: int, most: int) -> Search:
+        """Of n contacts, that combine so many periods; to be begun."""
+        counts = np.zeros((n, COUNTS), dtype=np.int64)
+        counts[:, [PLAIN, MOST]] = plain, most
+        past = np.empty((n, 2, memory - 1, n_x))
+        return cls(np.zeros((n, STATES, n_x)), past, counts, np.zeros((n, CHANGES)), np.empty((n, TOLD)))
+
+    def begin(self, which: Which, x: Array, enough: Array) -> None:
+        """Begin at these states (m, n_x); it ends where a period changes no more than is enough (m,)."""
+        self.states[which, X] = x
+        self.counts[which, : ENDED + 1] = 0
+        self.changes[which, :ENOUGH], self.changes[which, ENOUGH] = np.inf, enough
+
+    def go_on(self, marches: Marches, which: Which, n_periods: int) -> None:
+        """Go on for so many periods at most."""
+        m = marches
+        seek(m.kernel, m.blocks, m.v, m.s, m.roots, m.mean_F_z, which, n_periods, m.new_trace(), *self)
+
+
+@compiled(nogil=True, error_model="numpy", fastmath=_FAST)
+def seek(kernel, blocks, v, s, roots, mean_F_z, which, n_periods, trace, states, past, counts, changes, told):
+    """Go on with searches, each period begun within the cone of friction. The first arguments as of Marches."""
+    n_t, room = int(blocks[0, N_T]), np.empty_like(s[0])
+    for c in which:
+        vectors = states[c]
+        for _ in range(n_periods):
+            if counts[c, ENDED]:
+                break
+            put(s[c], room)
+            within_friction(vectors[X], room)
+            copy(vectors[X], vectors[START])
+            copy(vectors[X], vectors[IMAGE])
+            solved = kernel(blocks[c], v[c], vectors[IMAGE], room, n_t, trace)
+            counts[c, ENDED] = combine(roots[c], vectors, past[c], counts[c], changes[c])
+            counts[c, UNSOLVED] = 0 if solved else counts[c, UNSOLVED] + 1
+            if counts[c, UNSOLVED] > PATIENCE:
+                changes[c, LEAST], counts[c, ENDED] = np.nan, 1
+        tell(blocks[c], trace, mean_F_z[c], told[c])
+
+
+@_inner
+def combine(roots, vectors, past, counts, changes):
+    """Take into a search what a period has made of START; whether it has come to its end. If not, X is the state to go
+    on from.
     """
-
-    x: Array  #: (n_x,) the state that the next period starts from
-    start: Array  #: (n_x,) the one that the last period started from
-    image: Array  #: (n_x,) what it came to
-    moved: Array  #: (n_x,) how far that was, measured
-    best: Array  #: (n_x,) the image that moved least
-    d_image: Array  #: (memory, n_x) from image to image, oldest first
-    d_moved: Array  #: (memory, n_x) from move to move, measured
-    counts: NDArray[np.int64]  #: (4,)
-    changes: Array  #: (2,)
-    close: float  #: change at which the search ends
-    plain: int  #: periods before the first combination, while springs find their modes
-    patience: int  #: periods without a smaller change, or with a step that was not solved for, after which it ends too
-    growth: float  #: of the change over the least, at which combinations start anew
-
-
-@_jit
-def combine(at, image, roots):
-    """Take into a search what a period has made of at.x; whether the search has come to its end. If not, at.x is the
-    state to go on from.
-    """
-    counts, changes = at.counts, at.changes
+    image, start, moved, x = vectors[IMAGE], vectors[START], vectors[MOVED], vectors[X]
     size = change = 0.0
     for i in range(image.size):
+        moved[i] = roots[i] * (image[i] - start[i])
         size += (roots[i] * image[i]) ** 2
-        change += (roots[i] * (image[i] - at.start[i])) ** 2
+        change += moved[i] ** 2
     if not np.isfinite(size):
-        changes[BEST] = np.nan
+        changes[LEAST] = np.nan
         return True
-    change = np.sqrt(change) / (np.sqrt(size) + 1e-300)
-    period = counts[PERIODS]
+    change, period, k = np.sqrt(change) / (np.sqrt(size) + 1e-300), counts[PERIODS], counts[KEPT]
     counts[PERIODS] += 1
-    if change < changes[BEST]:
-        copy(image, at.best)
-        changes[BEST], counts[SINCE] = change, period
-    if change <= at.close or period - counts[SINCE] > at.patience:
+    if change < changes[LEAST]:
+        copy(image, vectors[BEST])
+        changes[LEAST], counts[SINCE] = change, period
+    if change <= changes[ENOUGH] or period - counts[SINCE] > PATIENCE or counts[PERIODS] >= counts[MOST]:
         return True
-    if change > at.growth * changes[LEAST]:
-        counts[KEPT], changes[LEAST] = 0, np.inf
+    if change > GROWTH * changes[LEAST_KEPT]:
+        k, changes[LEAST_KEPT] = 0, np.inf
     elif period > 0:
-        if counts[KEPT] == at.d_image.shape[0]:
-            for j in range(1, counts[KEPT]):
-                for i in range(image.size):
-                    at.d_image[j - 1, i], at.d_moved[j - 1, i] = at.d_image[j, i], at.d_moved[j, i]
-            counts[KEPT] -= 1
+        if k == past.shape[1]:
+            k -= 1
+            for of in range(2):
+                for j in range(k):
+                    copy(past[of, j + 1], past[of, j])
         for i in range(image.size):
-            at.d_image[counts[KEPT], i] = image[i] - at.image[i]
-            at.d_moved[counts[KEPT], i] = roots[i] * (image[i] - at.start[i]) - at.moved[i]
-        counts[KEPT] += 1
-    changes[LEAST] = min(changes[LEAST], change)
-    for i in range(image.size):
-        at.image[i] = at.x[i] = image[i]
-        at.moved[i] = roots[i] * (image[i] - at.start[i])
-    if period >= at.plain and counts[KEPT] > 0:
-        share = shares(at.d_moved[: counts[KEPT]], at.moved, 1e-10)
-        for j in range(share.size):
-            for i in range(image.size):
-                at.x[i] -= share[j] * at.d_image[j, i]
+            past[IMAGES, k, i], past[MOVES, k, i] = image[i] - vectors[LAST, i], moved[i] - vectors[LAST_MOVED, i]
+        k += 1
+    counts[KEPT], changes[LEAST_KEPT] = k, min(changes[LEAST_KEPT], change)
+    copy(image, x)
+    copy(image, vectors[LAST])
+    copy(moved, vectors[LAST_MOVED])
+    if period >= counts[PLAIN] and k > 0:
+        share = shares(past[MOVES, :k], moved, 1e-10)
+        for j in range(k):
+            for i in range(x.size):
+                x[i] -= share[j] * past[IMAGES, j, i]
     return False
-
-
-@_jit
-def search(
-    at, image, e, s, of_body, s_0, roots, body, side, springs, slip, flight, motion, law, tools, n_periods, trace
-):
-    """Go on with a search for so many periods, each begun within the cone of friction; whether it has come to its end.
-
-    image (n_x,): room for a state, of which e and of_body are views; s: room, for s_0 (1 + J, n), the compressions at
-    the start of a period. trace: of the last period. The others as of `march`.
-    """
-    n_t, ended = motion.z.size - 1, False
-    while n_periods > 0 and not ended:
-        n_periods -= 1
-        copy(at.x, image)
-        put(s_0, s)
-        within_friction(e, s)
-        copy(image, at.start)
-        solved = march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, n_t, trace)
-        ended = combine(at, image, roots)
-        at.counts[UNSOLVED] = 0 if solved else at.counts[UNSOLVED] + 1
-        if at.counts[UNSOLVED] > at.patience:
-            at.changes[BEST], ended = np.nan, True
-    return ended

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.dynamics.stepper import UNKNOWN
+from mdr.march.dynamics.state import UNKNOWN
 
 MIN_PERIODS = 8  #: fewer give no three windows
 LATE = "springs have not yet slipped as far as the pull went"  #: why a state that hardly changes is not periodic

@@ -16,10 +16,10 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.dimensionless import ScaledContact
+from mdr.march.dynamics.state import LEAST_SLIP as SLIP
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, Periods, Stepper
 from mdr.march.periodic.each_alone import search_alone
 from mdr.march.periodic.search import (
-    FULL,
     Orbit,
     at_other_resolution,
     gain_at_other_resolution,
@@ -27,6 +27,7 @@ from mdr.march.periodic.search import (
     search_from_full_slip,
 )
 from mdr.march.periodic.settling import Settling
+from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.solver import OutOfTime
 from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
@@ -137,6 +138,13 @@ class Converged:
         """Whether the COF is mu_0 to rounding: full slip."""
         return abs(1 - self.cof) < FULL
 
+    @property
+    def least_slip(self) -> float:
+        """Least slip velocity in contact, over v_0 or the greatest velocity of a shake if that is more; zero unless the
+        run is in full slip.
+        """
+        return self.orbit.least_slip / self.scaled.drive.pace(self.stepper.v) if self.slips_fully else 0.0
+
     def unsettled(self, why: str) -> Converged:
         """The same, not settled."""
         settling = replace(self.settling, settled=False, kind="unsettled", why=why)
@@ -199,16 +207,6 @@ class Observed:
         sums = self.account.seen.sums
         return float(sums[STICK_IMPULSE] / sums[CONTACT_IMPULSE])
 
-    @property
-    def least_slip(self) -> float:
-        """Least slip velocity in contact, over v_0 or the greatest velocity of a shake if that is more; zero unless the
-        run is in full slip.
-        """
-        sums = self.account.seen.sums
-        full = self.stick_share == 0 and abs(1 - self.cof) < FULL
-        stepper = self.end.stepper
-        return float(sums[LEAST_SLIP]) / stepper.scaled.drive.pace(stepper.v) if full else 0.0
-
 
 def steady(
     case: SlidingContact,
@@ -242,14 +240,14 @@ def steady(
             orbit = waiting.after(n_periods)
     if not np.isfinite(orbit.period.cof).all():
         raise out_of_range(v_0)
-    before = stepper.n_periods - (orbit.seen is not None)
-    return Converged(case, v_0, resolution, springs, stepper, orbit, before, waiting, n_periods is not None)
+    n_marched, awaits = stepper.n_periods, n_periods is not None
+    return Converged(case, v_0, resolution, springs, stepper, orbit, n_marched, waiting, awaits)
 
 
 def looked_at(end: Converged) -> Observed:
     """A close look at further periods of a march, one or as many as are to be kept."""
     stepper, settling, state, n = end.stepper, end.settling, end.orbit.state, end.resolution.record
-    records = [end.orbit.seen] if end.orbit.seen is not None and n == 0 else []
+    records: list[PeriodRecord] = []
     while len(records) < max(1, n):
         state, record = stepper.observe(state, keep=n > 0)
         records.append(record)
@@ -323,7 +321,8 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     """
     state, periods = stepper.advance(stepper.full_slip(), 2)
     last = Periods(*(column[-1:] for column in periods))
-    return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0))
+    least = float(stepper.told[SLIP])
+    return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0), least)
 
 
 def _contradiction(march: Observed) -> str:

@@ -14,7 +14,8 @@ import numpy as np
 
 from mdr.march.dynamics.body import Y
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.stepper import TOLERANCE, UNKNOWN, MarchState, Periods, Stepper, joined
+from mdr.march.dynamics.state import LEAST_SLIP, UNKNOWN, MarchState
+from mdr.march.dynamics.stepper import TOLERANCE, Periods, Stepper, joined
 from mdr.march.periodic.search import Orbit, search
 from mdr.march.periodic.settling import LATE, MIN_PERIODS, Settling, assess, smooth_mean
 from mdr.tools.progress import time_is_over
@@ -88,7 +89,7 @@ class Waiting:
         return self._ended(settling)
 
     def _ended(self, settling: Settling) -> Orbit:
-        return Orbit(self.state, self.periods, settling)
+        return Orbit(self.state, self.periods, settling, float(self.stepper.told[LEAST_SLIP]))
 
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""

@@ -24,7 +24,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.body import RESOLVED
 from mdr.march.dynamics.dimensionless import fast_ratio, stopping_rate
-from mdr.march.periodic.search import FULL
+from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.steady import (
     BUDGET,
     MOST_BESIDE,
@@ -33,7 +33,6 @@ from mdr.march.periodic.steady import (
     accuracy_of,
     at_hand,
     check,
-    looked_at,
     steady,
     too_coarse,
 )
@@ -288,7 +287,7 @@ def _of_unresolved(runs: _Runs, main: Converged) -> float:
 
 
 def _clear_of_stick(runs: _Runs, main: Converged) -> Converged | None:
-    """A run that slips, looked at closely, where no finer step would stick either: F_x is mu_0 F_z without error.
+    """A run that slips, where no finer step would stick either: F_x is mu_0 F_z without error.
 
     It and its companion of half the size must slip throughout, by more than a tenth of v_0 and ten times what doubling
     the steps changed. And this change must be small beside v_0 less the slip velocity, which is v_c, so that it
@@ -298,11 +297,11 @@ def _clear_of_stick(runs: _Runs, main: Converged) -> Converged | None:
     scaled = main.scaled
     if scaled.law.T and not scaled.body.rigid and not scaled.body.M and not scaled.body.C:
         return None
-    march, half = looked_at(main), looked_at(runs.half(main))
-    least, moved = min(march.least_slip, half.least_slip), abs(march.least_slip - half.least_slip)
+    of_main, of_half = main.least_slip, runs.half(main).least_slip
+    least, moved = min(of_main, of_half), abs(of_main - of_half)
     if not (least > max(0.1, 10 * moved) and moved < 0.01 * (1 - least) + 1e-12):
         return None
-    return replace(main, error=0.0, orbit=replace(main.orbit, seen=march.account))
+    return replace(main, error=0.0)
 
 
 def _apart(main: Converged, companion: Converged) -> float:

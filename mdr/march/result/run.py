@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_balance
-from mdr.march.dynamics.stepper import TOLERANCE, UNKNOWN, PeriodRecord
+from mdr.march.dynamics.state import UNKNOWN
+from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
 from mdr.march.periodic.settling import LATE, MIN_PERIODS
 from mdr.march.periodic.steady import Converged, Observed, looked_at, too_coarse
 from mdr.march.periodic.waiting import NO_STEP

@@ -1,0 +1,229 @@
+"""The march of any contact as a compiled function of plain arrays: its kernel.
+
+What a contact is to the march stands in one row of numbers, its *block*; its kind (material, pull, whether it moves in
+the plane) is compiled into the kernel. All kernels have one signature. So what is built on the march, such as the
+search for a periodic state, is compiled once for all kinds, and takes many contacts in one call.
+"""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property, lru_cache
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numba import types
+from numba.core.types import NoneType
+from numba.experimental import function_type  # noqa: F401, teaches numba what a WrapperAddressProtocol is
+from numba.extending import overload, register_jitable
+
+from mdr.march.dynamics.body import Body
+from mdr.march.dynamics.loop import FullSlipForce, Motion, Springs, Trace, march
+from mdr.spring.law import Arms, Law, Modes
+from mdr.spring.path import FAST
+from mdr.spring.times import new_tools
+from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
+
+_ROW, _ROWS = types.float64[::1], types.float64[:, ::1]
+#: block, velocity of the pull, state and compressions, updated, number of steps, flat trace; whether all was solved
+SIGNATURE = types.boolean(_ROW, types.float64, _ROW, _ROWS, types.int64, _ROW)
+
+#: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of the body
+#: along the pull
+N, N_T, N_ARMS, N_MODES, N_WAYS, T, ALONG = range(7)
+OF_BODY = 19  #: numbers of a body
+ACROSS, HEAD = ALONG + OF_BODY, ALONG + 2 * OF_BODY  #: places of the body across, and of the arrays
+OF_STEP = 10  #: numbers that a flat trace has of a step
+
+Is = Literal[True] | None
+
+
+class Kind(NamedTuple):
+    """What a contact has, True, or lacks, None: what it lacks is compiled away."""
+
+    modes: Is  #: of its material
+    arms: Is
+    slip: Is  #: a force of full slip, as it has a body on a line
+    flight: Is  #: times of flight, as the body is light
+    plane: Is  #: vectors for extensions
+
+
+class Kernel(types.WrapperAddressProtocol):
+    """The march of contacts of a kind; compiled code knows it by its address."""
+
+    def __init__(self, march: Callable[..., bool]) -> None:
+        self.march: Any = march
+
+    @cached_property
+    def address(self) -> int:
+        """Of the compiled function."""
+        self.march.compile(SIGNATURE.args)
+        made = self.march.overloads[SIGNATURE.args]
+        return int(made.library.get_pointer_to_function(made.fndesc.llvm_cfunc_wrapper_name))
+
+    def __call__(self, block: Array, v: float, x: Array, s: Array, n_steps: int, trace: Array) -> bool:
+        """March it; SIGNATURE."""
+        return bool(self.march(block, v, x, s, n_steps, trace))
+
+    def __wrapper_address__(self) -> int:
+        return self.address
+
+    def signature(self) -> Any:
+        """Of all kernels."""
+        return SIGNATURE
+
+
+def block_of(
+    springs: Springs,
+    motion: Motion,
+    law: Law,
+    bodies: tuple[Body, Body],
+    slip: FullSlipForce | None,
+    flight: Array | None,
+) -> tuple[Kernel, Array]:
+    """The kernel of a contact, and its block: what `march` takes but for state, velocity and room."""
+    T, modes, arms = law
+    of_arms, of_modes = (0 if one is None else one[0].size for one in (arms, modes))
+    plane = np.iscomplexobj(motion.x)
+    sizes = springs.gap.size, motion.z.size - 1, of_arms, of_modes, 1 + plane
+    arrays = [*springs, motion.z, motion.z_dot, motion.x.real, motion.x_dot.real]
+    arrays += [motion.x.imag, motion.x_dot.imag] if plane else []
+    arrays += [one.ravel() for part in (modes, arms, slip) if part is not None for one in part]
+    arrays += [] if flight is None else [flight]
+    kind = Kind(*(None if one is None else True for one in (modes, arms, slip, flight, plane or None)))
+    return kernel_of(kind), np.concatenate([sizes, [T], *map(_numbers, bodies), *arrays])
+
+
+def new_trace(n_steps: int, ways: int) -> Array:
+    """Room for the flat trace of a march."""
+    return np.empty(OF_STEP * n_steps * ways)
+
+
+def _numbers(parts: Any) -> list[float]:
+    """The numbers of nested tuples, one after the other."""
+    return [number for one in parts for number in (_numbers(one) if isinstance(one, tuple) else [float(one)])]
+
+
+def given(value, whether):
+    """The value, or None where a contact lacks it."""
+    return None if whether is None else value
+
+
+@overload(given)
+def _(value, whether):
+    if isinstance(whether, NoneType):
+        return lambda value, whether: None
+    return lambda value, whether: value
+
+
+def as_numbers(x, plane):
+    """Numbers in a row: pairs as vectors of the plane."""
+    return x if plane is None else x.view(np.complex128)
+
+
+@overload(as_numbers)
+def _(x, plane):
+    if isinstance(plane, NoneType):
+        return lambda x, plane: x
+    return lambda x, plane: x.view(np.complex128)
+
+
+def vectors(along, across, plane):
+    """Vectors of the plane of their components; numbers along a line."""
+    return along if plane is None else along + 1j * across
+
+
+@overload(vectors)
+def _(along, across, plane):
+    if isinstance(plane, NoneType):
+        return lambda along, across, plane: along
+    return lambda along, across, plane: along + 1j * across
+
+
+@register_jitable
+def taken(block, at, size):
+    """An array of a block, and where the next one begins."""
+    return block[at : at + size], at + size
+
+
+@register_jitable
+def row_of(block):
+    """Gaps and shares of the springs, and the normal motion with its rate."""
+    n, n_t = int(block[N]), int(block[N_T])
+    gap, at = taken(block, HEAD, n)
+    w, at = taken(block, at, n)
+    z, at = taken(block, at, n_t + 1)
+    z_dot, at = taken(block, at, n_t + 1)
+    return gap, w, z, z_dot, at
+
+
+@register_jitable
+def body_at(block, at):
+    """A body of a block."""
+    b = block[at : at + OF_BODY]
+    free, stuck = ((b[7], b[8]), (b[9], b[10])), ((b[15], b[16]), (b[17], b[18]))
+    return Body(b[0] != 0.0, b[1] != 0.0, b[2], b[3], b[4], b[5], b[6], free, (b[11], b[12]), (b[13], b[14]), stuck)
+
+
+@register_jitable
+def trace_of(flat, n_steps, plane):
+    """The Trace whose arrays a flat one holds."""
+    numbers = as_numbers(flat, plane)
+    area, at = taken(numbers, 0, n_steps)
+    moment, at = taken(numbers, at, n_steps)
+    y, at = taken(numbers, at, n_steps)
+    rate, at = taken(numbers, at, n_steps)
+    parts, at = taken(numbers, at, 6 * n_steps)
+    return Trace(area, moment, y, rate, parts.reshape((n_steps, 2, 3)))
+
+
+@lru_cache
+def kernel_of(kind: Kind) -> Kernel:
+    """The kernel of a kind."""
+    has_modes, has_arms, has_slip, has_flight, in_plane = kind
+
+    def kernel(block, v, x, s, n_steps, trace):
+        n_t, J, K = int(block[N_T]), int(block[N_ARMS]), int(block[N_MODES])
+        gap, w, z, z_dot, at = row_of(block)
+        along, at = taken(block, at, n_t + 1)
+        along_dot, at = taken(block, at, n_t + 1)
+        across, across_dot = along, along_dot
+        if in_plane is not None:
+            across, at = taken(block, at, n_t + 1)
+            across_dot, at = taken(block, at, n_t + 1)
+        mu, at = taken(block, at, K)
+        out, at = taken(block, at, (1 + J) * K)
+        into, at = taken(block, at, (1 + J) * K)
+        rho, at = taken(block, at, J)
+        rate, at = taken(block, at, J)
+        n_slip = 0 if has_slip is None else n_t
+        area, at = taken(block, at, n_slip)
+        moment, at = taken(block, at, n_slip)
+        end, at = taken(block, at, n_slip)
+        flight, at = taken(block, at, n_slip if has_flight is not None else 0)
+        modes = given(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
+        law = Law(block[T], modes, given(Arms(rho, rate), has_arms))
+        motion = Motion(z, z_dot, v, vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane))
+        state = as_numbers(x, in_plane)
+        e = state[: s.size].reshape(s.shape)
+        body = body_at(block, ALONG)
+        tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0])
+        return march(
+            e,
+            s,
+            state[s.size :],
+            body,
+            given(body_at(block, ACROSS), in_plane),
+            Springs(gap, w),
+            given(FullSlipForce(area, moment, end), has_slip),
+            given(flight, has_flight),
+            motion,
+            law,
+            tools,
+            n_steps,
+            trace_of(trace, n_steps, in_plane),
+        )
+
+    return Kernel(compiled(nogil=True, error_model="numpy", fastmath=FAST, no_cfunc_wrapper=False)(kernel))
