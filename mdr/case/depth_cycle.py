@@ -91,9 +91,7 @@ class Cycle(ArrayRecord):
 
     def over_a_period(self, steps: int) -> tuple[Array, Array]:
         """z and its rate at equidistant phases, both ends included: (steps + 1,), not to be written to."""
-        n = np.arange(1, self.cos.size + 1)
-        z, rate = (at_instants(C_n, steps) for C_n in (self.harmonics, 1j * n * self.harmonics))
-        return np.append(z, z[0]), np.append(rate, rate[0])
+        return _over_a_period(self.harmonics.tobytes(), steps)
 
     def kept_gap(self, response: Callable[[Array], NDArray[np.complex128]]) -> float:
         """Gap, in units from the mean depth, of the shallowest spring that never leaves: its least force is zero.
@@ -101,6 +99,14 @@ class Cycle(ArrayRecord):
         response: of the material to harmonics n (N,), over its long-time modulus.
         """
         return -peak(-self.harmonics * response(np.arange(1.0, self.cos.size + 1)))
+
+
+@lru_cache(maxsize=64)
+def _over_a_period(numbers: bytes, steps: int) -> tuple[Array, Array]:
+    harmonics = np.frombuffer(numbers, dtype=complex)
+    n = np.arange(1, harmonics.size + 1)
+    z, rate = (at_instants(C_n, steps) for C_n in (harmonics, 1j * n * harmonics))
+    return np.append(z, z[0]), np.append(rate, rate[0])
 
 
 def harmonic_sum(harmonics: NDArray[np.complex128], phase: Array) -> Array:

@@ -22,6 +22,7 @@ import numpy as np
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.tools.arrays import EPS, SAME, Array
+from mdr.tools.memoise import remembered
 
 
 class Depths(NamedTuple):
@@ -71,6 +72,7 @@ class _Stretch:
     permanent: bool  # in contact through the whole period
 
 
+@remembered(maxsize=16)
 def _stretches(shape: Indenter, depths: Depths) -> list[_Stretch]:
     """The row, cut where springs begin to lose contact and where contact ends, and at the kinks of the shape."""
     u_z0, kept = depths.u_z0, depths.kept

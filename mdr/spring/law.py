@@ -21,9 +21,9 @@ from math import factorial
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
 from mdr.tools.secular import secular_zeros
 
 N_PHI = 5
@@ -61,7 +61,7 @@ def law_of(T: float, rho: tuple[float, ...] = (), theta: tuple[float, ...] = ())
     return Law(float(T), modes, Arms(ratios, 1 / times) if rho else None)
 
 
-@njit(error_model="numpy")
+@compiled(error_model="numpy")
 def phi_of(r):  # type: ignore[no-untyped-def]
     """phi_0 ... phi_4 of r >= 0: from the exponential, or from a series where r is small."""
     if r > 1.0:

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.spring.contact import Each, press
 from mdr.spring.law import Law
 from mdr.spring.path import Path
-from mdr.spring.times import tools_for
+from mdr.spring.times import Tools, tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
@@ -55,23 +54,30 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     each: whether force and pressed_for are asked for.
     """
     n_t, n = z.size - 1, gap.size
-    tools = tools_for(law, 2 * np.pi / n_t)
-    rho, rate = law.arms or (np.empty(0), np.empty(0))
-    s = np.zeros((1 + rho.size, n))
+    tools, sums, none = tools_for(law, 2 * np.pi / n_t), np.empty((5, n_t)), np.empty((0, n))
+    s = np.zeros((1 if law.arms is None else 1 + law.arms.rho.size, n))
     s[0] = np.maximum(z[0] - gap, 0)
-    sums = np.empty((5, n_t))
-    none = np.empty((0, n))
+    if law.arms is not None:
+        if not _settle(s, gap, w, z, z_dot, law, tools, sums):
+            return None
+    elif law.modes is not None:
+        period(s, gap, w, z, z_dot, *law, tools, sums, none, none)
+    force, pressed_for = np.empty((2, n_t if each else 0, n))
+    period(s.copy(), gap, w, z, z_dot, *law, tools, sums, force, pressed_for)
+    area, moment, end, compression, flight = sums
+    return NormalPeriod(s, area, moment, end, compression, flight, force, pressed_for)
 
-    def pass_through(x: Array, who: NDArray[np.int64], force: Array, pressed_for: Array) -> None:
-        period(x, gap[who], w[who], z, z_dot, *law, tools, sums, force, pressed_for)
 
-    memory, roots = min(rho.size, MEMORY), np.sqrt(np.append(1.0, rho))[:, None]
-    forgotten = np.append(1.0, -np.expm1(-2 * np.pi * rate))[:, None]
+def _settle(s: Array, gap: Array, w: Array, z: Array, z_dot: Array, law: Law, tools: Tools, sums: Array) -> bool:
+    """Bring springs with arms (1 + J, n) to the state that returns after a period; whether that is found."""
+    rho, rate = law.arms or (np.empty(0), np.empty(0))
+    n, memory, roots = gap.size, min(rho.size, MEMORY), np.sqrt(np.append(1.0, rho))[:, None]
+    forgotten, none = np.append(1.0, -np.expm1(-2 * np.pi * rate))[:, None], np.empty((0, n))
     who, trust, before, change = np.arange(n), np.ones(n), np.full(n, np.inf), np.zeros(n)
     (tried, move), (tries, moves) = np.zeros((2, *s.shape)), np.zeros((2, memory, *s.shape))
-    for turn in range(MOST_PASSES if rho.size else min(1, tools.times.decay.shape[1])):
+    for turn in range(MOST_PASSES):
         start, x = s[:, who], s[:, who].copy()
-        pass_through(x, who, none, none)
+        period(x, gap[who], w[who], z, z_dot, *law, tools, sums, none, none)
         s[:, who] = x
         change[who] = np.abs(x - start).max(axis=0)
         stays = change[who] <= 1e-13 * np.abs(x).max(axis=0) + 1e-15 * np.abs(gap[who])  # z - gap: its rounding
@@ -82,22 +88,15 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
         trust[who] *= np.where(grows, 0.5, 1.0)
         before[who] = change[who]
         now = (1 + trust[who] * (1 / forgotten - 1)) * (x - start)
-        if memory:
-            slot = turn % memory
-            tries[slot, :, who], moves[slot, :, who] = (start - tried[:, who]).T, (now - move[:, who]).T
-            moves[:, :, who[grows] if turn else who] = 0
-            tried[:, who], move[:, who] = start, now
-            past = moves[:, :, who]
-            shares = np.linalg.pinv((roots * past).transpose(2, 1, 0), rcond=ALIKE) @ (roots * now).T[:, :, None]
-            now = now - np.einsum("kjn,nk->jn", past + tries[:, :, who], shares[:, :, 0])
+        slot = turn % memory
+        tries[slot, :, who], moves[slot, :, who] = (start - tried[:, who]).T, (now - move[:, who]).T
+        moves[:, :, who[grows] if turn else who] = 0
+        tried[:, who], move[:, who] = start, now
+        past = moves[:, :, who]
+        shares = np.linalg.pinv((roots * past).transpose(2, 1, 0), rcond=ALIKE) @ (roots * now).T[:, :, None]
+        now = now - np.einsum("kjn,nk->jn", past + tries[:, :, who], shares[:, :, 0])
         s[:, who] = start + now
-    if rho.size and not change.max(initial=0) <= NOT_PERIODIC:
-        return None
-    every = np.arange(n)
-    force, pressed_for = np.empty((2, n_t if each else 0, n))
-    pass_through(s.copy(), every, force, pressed_for)
-    area, moment, end, compression, flight = sums
-    return NormalPeriod(s, area, moment, end, compression, flight, force, pressed_for)
+    return bool(change.max(initial=0) <= NOT_PERIODIC)
 
 
 @compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})

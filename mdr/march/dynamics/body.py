@@ -12,7 +12,6 @@ What it does not resolve dies out at once.
 
 from __future__ import annotations
 
-from math import factorial
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 
 from mdr.spring.law import Law, phi_of
 from mdr.tools.arrays import Array
+from mdr.tools.jit import compiled
 
 RESOLVED = 16  #: steps per oscillation of the body on the contact, from which on it counts as resolved
 TERMS = 20  #: of a series whose terms are 1/n! at most
@@ -68,37 +68,35 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, ringing: float) ->
     return Body(False, False, M, C, K, h, ringing, free, _pair(area), _pair(moment), _square(stuck))
 
 
-def pushed(c: float, k: float) -> tuple[float, float, float, float, float]:
+@compiled(error_model="numpy")
+def pushed(c, k):  # type: ignore[no-untyped-def]
     """A body y'' + c y' + k y = 0 after the time 1: its way y from a velocity of one, the first and the second integral
     of this over the time, its way from a displacement of one, and its velocity from a velocity of one.
 
     With decay rates p and q the first three are divided differences of the exponential at -p and -q; with 0; and with 0
     twice. They follow from a series where both rates are small, else from each other, divided by what is not small.
     """
-    root = np.emath.sqrt(c * c / 4 - k)
-    if c / 2 + root.real <= 1 and k <= 1:
-        sums, last, now = np.zeros(3), 0.0, 1.0
-        for n in range(TERMS):
-            sums += np.array([1.0, 1 / (n + 2), 1 / ((n + 2) * (n + 3))]) * now / factorial(n + 1)
-            last, now = now, -c * now - k * last
-        way, way_1, way_2 = sums.tolist()
-        return way, way_1, way_2, 1 - k * way_1, 1 - c * way - k * way_1
-    if root.imag:
-        decay, way = np.exp(-c / 2), np.exp(-c / 2) * np.sinc(root.imag / np.pi)
-        turn, rate = (decay * np.cos(root.imag) + sign * c / 2 * way for sign in (1, -1))
-        way_1 = (1 - turn) / k
-        return float(way), float(way_1), float((1 - way - c * way_1) / k), float(turn), float(rate)
-    q = c / 2 + float(root)
+    square = c * c / 4.0 - k
+    root = np.sqrt(abs(square))
+    if c / 2.0 + (root if square > 0.0 else 0.0) <= 1.0 and k <= 1.0:
+        way = way_1 = way_2 = last = 0.0
+        now = factor = 1.0
+        for n in range(TERMS):  # factor: 1/(n + 1)!
+            way, way_1 = way + now * factor, way_1 + now * factor / (n + 2)
+            way_2 += now * factor / ((n + 2) * (n + 3))
+            last, now, factor = now, -c * now - k * last, factor / (n + 2)
+        return way, way_1, way_2, 1.0 - k * way_1, 1.0 - c * way - k * way_1
+    if square < 0.0:
+        decay = np.exp(-c / 2.0)
+        way = decay * np.sin(root) / root
+        turn, rate = decay * np.cos(root) + c / 2.0 * way, decay * np.cos(root) - c / 2.0 * way
+        way_1 = (1.0 - turn) / k
+        return way, way_1, (1.0 - way - c * way_1) / k, turn, rate
+    q = c / 2.0 + root
     p = k / q
-    way, slow = np.exp(-p) * phi_of(2 * float(root))[1], phi_of(p)
+    way, slow = np.exp(-p) * phi_of(2.0 * root)[1], phi_of(p)
     way_1 = (slow[1] - way) / q
-    return (
-        float(way),
-        float(way_1),
-        float((slow[2] - way_1) / q),
-        float(np.exp(-p) + p * way),
-        float(np.exp(-q) - p * way),
-    )
+    return way, way_1, (slow[2] - way_1) / q, np.exp(-p) + p * way, np.exp(-q) - p * way
 
 
 def _pair(of: Array) -> Pair:

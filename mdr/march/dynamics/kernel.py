@@ -53,6 +53,8 @@ class Kind(NamedTuple):
 class Kernel(types.WrapperAddressProtocol):
     """The march of contacts of a kind; compiled code knows it by its address."""
 
+    _numba_type_ = types.FunctionType(SIGNATURE)
+
     def __init__(self, march: Callable[..., bool]) -> None:
         self.march: Any = march
 
