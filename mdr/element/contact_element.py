@@ -293,7 +293,7 @@ def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: flo
             f"indenter: the middle of {type(indenter).__name__} presses only from {indenter.least_depth:.6g} m on, and "
             f"here the depth may be {least:.6g} m: short of that a ring would touch, which the method leaves out"
         )
-    _, gap, width, _ = nodes(indenter, Depths(0.0, deepest, least, deepest), n, alike=False)
+    _, gap, width, _ = nodes(indenter, Depths(0.0, deepest, least, deepest, -np.inf), n)
     gap, total = gap / deepest, float(width.sum())
     w = width / total
     if gap.max() == gap.min():  # a flat face: one spring stands for all

@@ -2,7 +2,9 @@
 
 A sum over the springs is an integral over x. Its integrand is smooth but at places that are known from the normal
 motion, the edge of the contact at its greatest depth and the place up to which springs never lose contact, at kinks of
-the shape, and where the order of modes changes, which is not known beforehand: there its second derivative jumps.
+the shape, and where the order of modes changes, which is not known beforehand: there its second derivative jumps. One
+of these a run can tell: under a body that swings back, those springs slip back that are pressed least of all that never
+lose contact; the others do the same but for their gap (`alike`).
 The row is cut at the known places, and each stretch between two cuts, however thin, has springs of its own: the nodes
 of Fejer's first rule, which are as dense at both ends as those of Gauss and do as well (Trefethen 2008), their weights
 being known. What is left is of third order, of the jumps between the cuts. The mean gap of a stretch is exact. So are
@@ -32,22 +34,21 @@ class Depths(NamedTuple):
     unit: float  #: beside which a difference of gaps is something
     kept: float  #: gap below which springs never lose contact
     greatest: float  #: gap at the greatest depth
+    alike: float  #: gap below which they do the same besides, but for their gap; no more than `kept`
 
     @classmethod
-    def of(cls, cycle: Cycle, kept_gap: float) -> Depths:
-        """Of a periodic motion; kept_gap in units of its amplitude."""
-        return cls(cycle.u_z0, cycle.unit, cycle.unit * kept_gap, cycle.unit * cycle.greatest)
+    def of(cls, cycle: Cycle, kept_gap: float, alike: float = np.inf) -> Depths:
+        """Of a periodic motion; kept_gap and alike in units of its amplitude."""
+        kept, greatest, alike = (cycle.unit * gap for gap in (kept_gap, cycle.greatest, min(kept_gap, alike)))
+        return cls(cycle.u_z0, cycle.unit, kept, greatest, alike)
 
 
-def nodes(shape: Indenter, depths: Depths, n_springs: int, alike: bool = True) -> tuple[Array, Array, Array, int]:
-    """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact.
-
-    alike: whether those do the same but for their gap; under a shake in the plane each has modes of its own.
-    """
+def nodes(shape: Indenter, depths: Depths, n_springs: int) -> tuple[Array, Array, Array, int]:
+    """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact."""
     if shape.least_depth > 0:
         return _complete(shape, depths.u_z0, n_springs)
     stretches = _stretches(shape, depths)
-    counts = _share_out(stretches, n_springs, depths.unit, alike)
+    counts = _share_out(stretches, n_springs, depths.unit)
     parts = [_springs_of(shape, depths.u_z0, stretch, n) for stretch, n in zip(stretches, counts, strict=True)]
     x, gap, width = (np.concatenate(part) for part in zip(*parts, strict=True))
     return x, gap, width, sum(n for stretch, n in zip(stretches, counts, strict=True) if stretch.permanent)
@@ -70,32 +71,33 @@ class _Stretch:
     gap_hi: float
     area: float  # below g, from x_lo to x_hi [m²]
     permanent: bool  # in contact through the whole period
+    alike: bool  # its springs do the same but for their gap
 
 
 @remembered(maxsize=16)
 def _stretches(shape: Indenter, depths: Depths) -> list[_Stretch]:
-    """The row, cut where springs begin to lose contact and where contact ends, and at the kinks of the shape."""
-    u_z0, kept = depths.u_z0, depths.kept
-    gaps = [gap for gap in (kept, depths.greatest) if u_z0 + gap > 0]
+    """The row, cut where springs begin to differ and to lose contact, where contact ends, and at kinks of the shape."""
+    u_z0, kept, alike = depths.u_z0, depths.kept, depths.alike
+    gaps = [gap for gap in (*([alike] if alike < kept else []), kept, depths.greatest) if u_z0 + gap > 0]
     radii = shape.contact_radius(u_z0 + np.array(gaps))
     marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]
     marks.sort()
     area = np.diff(shape.profile_area([x for x, _ in marks]))
     return [
-        _Stretch(x_lo, x_hi, gap_lo, gap_hi, below, permanent=gap_hi <= kept)
+        _Stretch(x_lo, x_hi, gap_lo, gap_hi, below, permanent=gap_hi <= kept, alike=gap_hi <= alike)
         for (x_lo, gap_lo), (x_hi, gap_hi), below in zip(marks, marks[1:], area.tolist(), strict=False)
         if x_hi > x_lo
     ]
 
 
-def _share_out(stretches: list[_Stretch], n_springs: int, unit: float, alike: bool) -> list[int]:
+def _share_out(stretches: list[_Stretch], n_springs: int, unit: float) -> list[int]:
     """Number of springs of each stretch: the same, but for those where all move alike."""
     least = 2 * len(stretches)
     if n_springs < least:
         raise ValueError(f"n_springs must be at least {least} for this shape with its kinks, got {n_springs}")
     level = np.array([stretch.gap_hi - stretch.gap_lo <= SAME * unit for stretch in stretches])
-    as_one = [alike and stretch.permanent for stretch in stretches]
+    as_one = [stretch.alike for stretch in stretches]
     # a stretch whose springs move alike gets an eighth of the springs of another
     shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(as_one, 1 / 8, 1.0)))
     more = np.rint((n_springs - least) * shares / shares[-1])

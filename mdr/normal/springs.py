@@ -68,11 +68,7 @@ class SpringArray(Summarised, ArrayRecord):
         ValueError
             For fewer than 16 springs.
         """
-        case, n_springs = resolved(case), count("n_springs", n_springs, MIN_SPRINGS)
-        x, gap, width, n_core = nodes(
-            case.indenter, Depths.of(case.cycle, case.kept_gap), n_springs, alike=not case.is_shaken
-        )
-        return cls(x, gap, width, case.material.E_star, case.material.G_star, n_core)
+        return springs_of(resolved(case), count("n_springs", n_springs, MIN_SPRINGS))
 
     def _summary(self) -> Summary:
         return Summary(
@@ -130,3 +126,12 @@ class SpringArray(Summarised, ArrayRecord):
             Normal force [N].
         """
         return float(np.sum(self.dk_z * np.maximum(u_z - u_z0 - self.gap, 0)))
+
+
+def springs_of(case: SlidingContact, n_springs: int, alike: float = np.inf) -> SpringArray:
+    """What `SpringArray.of` answers. alike: gap [amplitudes] up to which springs that never lose contact do the same
+    but for their gap, as all of them do where nothing shakes in the plane and no body swings back.
+    """
+    depths = Depths.of(case.cycle, case.kept_gap, -np.inf if case.is_shaken else alike)
+    x, gap, width, n_core = nodes(case.indenter, depths, n_springs)
+    return SpringArray(x, gap, width, case.material.E_star, case.material.G_star, n_core)

@@ -6,21 +6,24 @@ import os
 import sys
 import time
 import warnings
-from collections.abc import Collection, Generator, Sequence
+from collections.abc import Callable, Collection, Generator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from itertools import islice
+from queue import SimpleQueue
 from random import Random
-from threading import Event
+from threading import Event, Lock, Thread
 from typing import Any
 
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.studies.formats import packed
+from mdr.studies.helpers import Lost, helper_for
 from mdr.studies.points import Points, compute
 from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
 from mdr.studies.study import Study, frame_of, study_of_points, tree_of
 from mdr.studies.work import Work, units_of
+from mdr.tools.compiling import TALLY
 from mdr.tools.progress import progress
 from mdr.tools.status import Status
 
@@ -28,6 +31,7 @@ from mdr.tools.status import Status
 LEAST_CHUNKS = 32
 #: chunks that an executor of the user is given at a time, more than a cluster has workers; and of a study in memory
 MOST_IN_FLIGHT = 1024
+ALONE = 2.0  #: s of computing after which other processes help, which take about as long to begin
 
 
 class Call:
@@ -143,23 +147,24 @@ class Call:
 
 
 def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generator[tuple[int, Points], None, None]:
-    """Compute chunks in any order, by own threads or an executor; yields each with its points as it is finished.
+    """Compute chunks in any order, here and by helpers, or by an executor; yields each with its points as it is
+    finished.
 
     What the executor or the work itself raises ends the run; so does closing the generator.
     """
     from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
-    ended, n_threads = Event(), cores()
-    threads = ThreadPoolExecutor(n_threads) if executor is None else None
-    pool = threads or executor
-    most = n_threads + 2 if threads else MOST_IN_FLIGHT
-    stop = (ended,) if isinstance(pool, ThreadPoolExecutor) else ()  # an event cannot be sent to other processes
+    if executor is None:
+        yield from _run_here(work, cut, chunks)
+        return
+    ended = Event()
+    stop = (ended,) if isinstance(executor, ThreadPoolExecutor) else ()  # an event cannot be sent to other processes
     waiting: dict[Future[Points], int] = {}
     remaining = iter(chunks)
     try:
         while True:
-            for chunk in islice(remaining, most - len(waiting)):
-                waiting[pool.submit(compute, work, units_of(cut, chunk), *stop)] = chunk
+            for chunk in islice(remaining, MOST_IN_FLIGHT - len(waiting)):
+                waiting[executor.submit(compute, work, units_of(cut, chunk), *stop)] = chunk
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
@@ -168,8 +173,52 @@ def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generat
         ended.set()
         for future in waiting:
             future.cancel()
-        if threads is not None:
-            threads.shutdown(cancel_futures=True)
+
+
+def _run_here(work: Work, cut: range, chunks: Sequence[int]) -> Generator[tuple[int, Points], None, None]:
+    """Compute chunks by a thread of this process, and by a helper for every other core once it has lasted a while."""
+    ended, finished, remaining, lock = Event(), SimpleQueue[tuple[int, Points] | BaseException](), iter(chunks), Lock()
+
+    def compute_here(units: range) -> Points:
+        return compute(work, units, ended)
+
+    def take(by: Callable[[range], Points]) -> None:
+        try:
+            while not ended.is_set():
+                with lock:
+                    chunk = next(remaining, None)
+                if chunk is None:
+                    return
+                finished.put((chunk, by(units_of(cut, chunk))))
+        except BaseException as error:
+            finished.put(error)
+
+    def help_later() -> None:
+        begin = TALLY.clock
+        while TALLY.clock < begin + ALONE:  # which stands still while something is compiled
+            if ended.wait(0.1):
+                return
+        helper = helper_for(work, ended)
+        try:
+            take(compute_here if helper is None else helper.compute)
+        finally:
+            if helper is not None:
+                helper.close()
+
+    others = [Thread(target=help_later, daemon=True) for _ in range(min(cores(), len(chunks)) - 1)]
+    threads = [Thread(target=take, args=(compute_here,), daemon=True), *others]
+    for thread in threads:
+        thread.start()
+    try:
+        for _ in chunks:
+            one = finished.get()
+            if isinstance(one, BaseException):
+                raise one
+            yield one
+    finally:
+        ended.set()
+        for thread in threads:
+            thread.join()
 
 
 def cores() -> int:
@@ -182,7 +231,7 @@ def _lost(error: Exception) -> bool:
     from concurrent.futures import BrokenExecutor, CancelledError
 
     # KilledWorker is of distributed, which is not imported here
-    return isinstance(error, BrokenExecutor | CancelledError) or type(error).__name__ == "KilledWorker"
+    return isinstance(error, BrokenExecutor | CancelledError | Lost) or type(error).__name__ == "KilledWorker"
 
 
 def timed(work: Work, seconds: float) -> range:

@@ -58,8 +58,9 @@ def sweep(
         Folder that finished chunks are kept in. The same call goes on from there, however the last one ended. None
         keeps the study in memory.
     executor : concurrent.futures.Executor, optional
-        Who computes: None takes one thread for each core. Any Executor will do, of processes that are spawned, or of a
-        cluster (Dask: `client.get_executor()`).
+        Who computes: None computes here, and after two seconds with a process for each further core, unless a shape or
+        a quantity is defined in the script itself. Any Executor will do, of processes that are spawned, or of a cluster
+        (Dask: `client.get_executor()`).
     quantities : iterable of str or Quantity
         Names of `mdr.studies.CATALOGUE`, or records of your own. Over "v_0" it has "v_c" too, which its maps show.
     chunk_seconds : float

@@ -1,19 +1,22 @@
 """Marches as the kernels do them, and kernels of which the fixed points are known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 from numba import njit
 
 from mdr.march.dynamics.kernel import HEAD, N_T, N_WAYS, Kernel, N, new_trace, trace_of
-from mdr.march.dynamics.marches import Marches
 from mdr.march.dynamics.state import MarchState
-from mdr.march.periodic.shooting import Shots
+from mdr.march.dynamics.stepper import Stepper
+from mdr.march.periodic.shooting import Options, Shooting
+from mdr.tools.progress import Ticker
 
 
 def marched(scaled, v, n_periods):
     """State and trace after so many periods at v from full slip along a line, and whether every step was solved."""
     (kernel, block), n_steps = scaled.in_numbers, n_periods * scaled.drive.steps
     state = MarchState.of(scaled.normal.s, scaled.normal.s, scaled.full_slip.state(v))
-    flat = new_trace(n_steps, 1)
+    flat = new_trace(block, n_periods)
     solved = kernel(block, v, state.x, state.s, n_steps, flat)
     return state, trace_of(flat, n_steps, None), solved
 
@@ -33,23 +36,23 @@ def trimmed(block, v, x, s, n_steps, trace):
     return True
 
 
+class OnAMap(Stepper):
+    """A stepper of such a map, at rest, so that no spring is late."""
+
+    def __init__(self, A, b, edge, tolerance):
+        n = b.size - 2
+        head = np.zeros(HEAD)
+        head[[N, N_T, N_WAYS]] = n, 2, 1
+        self.kernel, self.block = Kernel(trimmed), np.concatenate([head, A.ravel(), b, [edge]])
+        self.v, self.tolerance, self.mean_F_z, self.n_periods = 0.0, tolerance, 1.0, 0
+        drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
+        self.scaled = SimpleNamespace(drive=drive, body=body, in_plane=None, ways=1)
+        self.ticker = Ticker("map")
+
+
 def fixed_point(A, b, x, edge=np.inf, close=1e-10):
     """What the search of the march makes of such a map, which it knows to move slowly in the first two parts of x."""
     n_x = x.size
-    head = np.zeros(HEAD + 2 * (n_x - 2) + 6)  # springs that stand at 0, and a motion of two steps
-    head[[N, N_T, N_WAYS]] = n_x - 2, 2, 1
-    marches = Marches(
-        kernel=Kernel(trimmed),
-        blocks=np.concatenate([head, A.ravel(), b, [edge]])[None],
-        v=np.zeros(1),
-        s=np.full((1, 1, n_x - 2), 1e300),  # no friction brings a state back
-        roots=np.ones((1, n_x)),
-        pushes=np.eye(n_x)[None, :2].copy(),
-        mean_F_z=np.ones(1),
-        slow=np.zeros(1),
-        n_slow=0,
-        stable=np.zeros(1, dtype=bool),
-    )
-    shots = Shots(marches, np.array([20 * close]))
-    shots.shoot(x[None], 3, 8, 80, 100)
-    return shots
+    start = MarchState(x.copy(), np.full((1, n_x - 2), 1e300))  # no friction brings a state back
+    how = Options(np.ones(n_x), np.eye(n_x)[:2], (), stable=False, memory=8, most=80, plain=3, at_once=100)
+    return Shooting(OnAMap(A, b, edge, 20 * close), start, how).shoot(x)

@@ -1,6 +1,7 @@
 """As accurate as asked: bounds that hold at any accuracy and for what is given, and refusals."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,10 @@ from conftest import SHAPES, contact, unit_of_velocity
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.dynamics.stepper import TOLERANCE
-from mdr.march.periodic.steady import Resolution, steady
+from mdr.march.periodic.steady import Resolution, alike_to, looked_at, steady
 from mdr.march.result import refinement
+from mdr.spring.contact_modes import State
+from mdr.spring.energies import LEAST_SLIP
 
 BODY = contact("paraboloid", 3.0, 0.0, 2.0, 1.6, 0.1)
 FAST = contact("paraboloid", 3.0, 0.0, 2.0, 6.4, 0.1)  # omega_1/omega is 7.8
@@ -100,3 +103,36 @@ def test_bodies_without_mass_on_dashpots_begin_with_more_where_they_lose_contact
     lost, kept = contact("flat", 1 / 1.3, 1.0, 1.0, math.inf), contact("flat", 3.0, 1.0, 1.0, math.inf)
     assert refinement.default_steps(lost) > refinement.default_steps(kept)
     assert refinement.default_springs(lost) > refinement.default_springs(kept)
+
+
+def test_the_row_is_cut_where_springs_begin_to_slip_back():
+    """Under a body that swings back, the outermost of the springs that never lose contact slip back, and those alone.
+    Without a cut there it took 512 springs."""
+    case = mdr.SlidingContact(
+        mdr.Paraboloid(5e-3), mdr.Elastic(3e6, 0.4), 0.4, mdr.NormalOscillation(2e-5, 1.43e-5, 314.0)
+    )
+    k_x = 0.6 * case.k_xc
+    case = replace(case, pull=mdr.SpringPull(k_x, k_x / (0.7 * 314.0) ** 2, 0.1 * k_x / 314.0))
+    v_0 = 0.327 * case.unit_velocity
+    reach = case.cycle.unit * alike_to(steady(case, v_0, Resolution(64, 128, "full_slip", True)))
+    assert reach < case.cycle.unit * case.kept_gap
+    fine = mdr.slide(case, v_0, n_springs=2048, steps_per_period=128, record=1)
+    gap, back = case.indenter.profile_1d(fine.x) - 2e-5, (fine.state == State.SLIP_BACK).any(axis=0)
+    kept = gap < case.cycle.unit * case.kept_gap
+    assert back[kept & (gap > reach + 0.01 * case.cycle.unit)].all()
+    assert not back[gap < reach - 0.01 * case.cycle.unit].any()
+    run = mdr.slide(case, v_0)
+    assert run.n_springs <= 128
+    assert run.cof_error < 1e-5 * case.mu_0
+    assert abs(run.cof - fine.cof) <= run.cof_error + fine.cof_error
+
+
+@pytest.mark.parametrize("T", [0.0, 0.5])
+@pytest.mark.parametrize("share", [1.05, 1.5])
+@pytest.mark.parametrize("depth_ratio", [3.0, 0.7])
+def test_the_least_slip_of_a_march_is_that_of_a_close_look(depth_ratio, share, T):
+    case = contact("paraboloid", depth_ratio, T, 2.0, 1.6, 0.1)
+    end = steady(case, share * mdr.full_slip_critical_velocity(case), Resolution(32, 256, "full_slip", True))
+    assert end.slips_fully
+    seen = looked_at(end).account.seen.sums[LEAST_SLIP] / end.scaled.drive.pace(end.stepper.v)
+    assert end.least_slip == pytest.approx(seen, abs=end.scaled.drive.h**2)  # to the parabolas of steps

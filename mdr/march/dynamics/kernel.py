@@ -98,9 +98,10 @@ def block_of(
     return kernel_of(kind), np.concatenate([sizes, [T], *map(_numbers, bodies), *arrays])
 
 
-def new_trace(n_steps: int, ways: int) -> Array:
-    """Room for the flat trace of a march."""
-    return np.empty(OF_STEP * n_steps * ways)
+@register_jitable
+def new_trace(block, n_periods):
+    """Room for the flat trace of so many periods."""
+    return np.empty(OF_STEP * n_periods * int(block[N_T]) * int(block[N_WAYS]))
 
 
 def _numbers(parts: Any) -> list[float]:

@@ -15,9 +15,9 @@ from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
 from mdr.march.dynamics.dimensionless import ScaledContact, Way
 from mdr.march.dynamics.kernel import new_trace, trace_of
-from mdr.march.dynamics.marches import lacking
-from mdr.march.dynamics.state import TOLD, MarchState, tell, within_friction
+from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
+from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
@@ -25,6 +25,8 @@ from mdr.tools.progress import Ticker, time_is_over
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
+LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
+WITH_IT = 0.5  #: of the way of the pull, on which a spring may go with it or lose and still count as slipping as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -61,7 +63,7 @@ class Stepper:
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
         self.solved = True  # whether every step of the last march was solved for
-        self.told = np.empty(TOLD)  # what its last period came to, see state.py
+        self.trace: loop.Trace | None = None  # its last period
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
 
     def full_slip(self) -> MarchState:
@@ -105,17 +107,22 @@ class Stepper:
         periods: in a periodic motion each does, however slow the pull, and however little a state changes that has
         hardly moved.
         """
-        block, v, mean = self.block[None], np.array([self.v]), np.array([self.mean_F_z])
-        return float(lacking(block, v, (after.x - before.x)[None], n_periods, mean)[0])
+        (gap, w), drive, pull = self.scaled.springs, self.scaled.drive, 2 * np.pi * self.v
+        if pull <= drive.steps * LOST * (1 + np.abs(gap).max()):
+            return UNKNOWN if pull else 0.0
+        went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
+        late = np.abs(went) > WITH_IT * n_periods * pull
+        return 2 * float(w[late] @ np.maximum(drive.z.max() - gap[late], 0.0)) / self.mean_F_z
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
         n_steps, in_plane = n_periods * self.scaled.drive.steps, self.scaled.in_plane
-        flat = new_trace(n_steps, self.scaled.ways)
+        flat = new_trace(self.block, n_periods)  # type: ignore[no-untyped-call]
         self.solved = self.kernel(self.block, self.v, state.x, state.s, n_steps, flat)
-        tell(self.block, flat, self.mean_F_z, self.told)
         self.count(n_periods)
-        return trace_of(flat, n_steps, in_plane)  # type: ignore[no-any-return, no-untyped-call]
+        trace: loop.Trace = trace_of(flat, n_steps, in_plane)  # type: ignore[no-untyped-call]
+        self.trace = trace if n_periods == 1 else loop.Trace(*(of[-self.scaled.drive.steps :].copy() for of in trace))
+        return trace
 
     def count(self, n_periods: int) -> None:
         """Add periods to those that were marched."""
@@ -127,6 +134,21 @@ class Stepper:
         area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
         cof = area.sum(axis=1) / (2 * np.pi * self.mean_F_z)
         return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
+
+    def least_slip(self, trace: loop.Trace | None) -> float:
+        """Least velocity, the way of the pull, at which springs slip that all do so all the time, in a period."""
+        if trace is None:
+            return 0.0
+        (z, z_dot, *_), h = self.motion, self.scaled.drive.h
+        z_2, cut = np.diff(z_dot) / (2 * h), trace.parts[:, 0, 0].real > 0
+        z_1, parts = np.diff(z) / h - z_2 * h, trace.parts.real
+        parts = np.where((cut | np.array([[False], [True]])).T[:, :, None], parts, 0.0)  # of one part no more is set
+        length = parts[:, :, 0]
+        begin = np.stack([np.zeros(length.shape[0]), length[:, 0]], axis=1)
+        first = parts[:, :, 1] - z_1[:, None] - 2 * z_2[:, None] * begin
+        last = first + 2 * (parts[:, :, 2] - z_2[:, None]) * length
+        presses = (length > 0) & (trace.area.real > 0)[:, None]
+        return float(np.minimum(first, last).min(where=presses, initial=np.inf))
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
@@ -151,6 +173,17 @@ class Stepper:
         stored = self.stored_energy(before), self.stored_energy(state)
         y, rate = np.r_[start[Y], trace.y], np.r_[start[RATE], trace.rate]
         return state, PeriodRecord(seen, y, rate, stored, self.periods_of(trace), self.solved)
+
+    def forces_of(self, state: MarchState, i: int) -> tuple[Array, Array]:
+        """Force and normal force of a spring over its stiffness, at the end of each step from a state on."""
+        scaled, n_t = self.scaled, self.scaled.drive.steps
+        one, trace = slice(i, i + 1), self._marched(state.copy(), 1)
+        nodes, rows = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms), np.zeros((5, n_t, 1))
+        seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_t, 4)), *rows)
+        springs = loop.Springs(*(of[one] for of in scaled.springs))
+        e, s = (np.ascontiguousarray(of[:, one]) for of in (state.e, state.s))
+        loop.look(e, s, springs, self.motion, scaled.law, tools_for(scaled.law, scaled.drive.h), trace, seen)
+        return seen.f[:, 0], seen.f_z[:, 0]
 
     def _work_of(self, way: Way, area: Array, moment: Array) -> float:
         """Work of a shake, which goes on parabolas."""

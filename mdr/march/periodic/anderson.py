@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from mdr.march.dynamics.body_step import copy, put
 from mdr.march.dynamics.kernel import N_T
-from mdr.march.dynamics.marches import Marches, Which
-from mdr.march.dynamics.state import TOLD, tell, within_friction
+from mdr.march.dynamics.state import within_friction
 from mdr.spring.path import OWN
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
@@ -38,53 +37,48 @@ _inner = inner(error_model="numpy", fastmath=_FAST, **OWN)
 
 
 class Search(NamedTuple):
-    """Searches of C contacts on their way, updated in place."""
+    """A search on its way, updated in place."""
 
-    states: Array  #: (C, STATES, n_x)
-    past: Array  #: (C, 2, memory, n_x)
-    counts: NDArray[np.int64]  #: (C, COUNTS)
-    changes: Array  #: (C, CHANGES)
-    told: Array  #: (C, TOLD) of the last period, see state.py
+    states: Array  #: (STATES, n_x)
+    past: Array  #: (2, memory, n_x)
+    counts: NDArray[np.int64]  #: (COUNTS,)
+    changes: Array  #: (CHANGES,)
 
     @classmethod
-    def of(cls, n: int, n_x: int, memory: int, plain: int, most: int) -> Search:
-        """Of n contacts, that combine so many periods; to be begun."""
-        counts = np.zeros((n, COUNTS), dtype=np.int64)
-        counts[:, [PLAIN, MOST]] = plain, most
-        past = np.empty((n, 2, memory - 1, n_x))
-        return cls(np.zeros((n, STATES, n_x)), past, counts, np.zeros((n, CHANGES)), np.empty((n, TOLD)))
+    def of(cls, n_x: int, memory: int, plain: int, most: int) -> Search:
+        """One that combines so many periods; to be begun."""
+        counts = np.zeros(COUNTS, dtype=np.int64)
+        counts[PLAIN], counts[MOST] = plain, most
+        past = np.empty((2, memory - 1, n_x))
+        return cls(np.zeros((STATES, n_x)), past, counts, np.zeros(CHANGES))
 
-    def begin(self, which: Which, x: Array, enough: Array) -> None:
-        """Begin at these states (m, n_x); it ends where a period changes no more than is enough (m,)."""
-        self.states[which, X] = x
-        self.counts[which, : ENDED + 1] = 0
-        self.changes[which, :ENOUGH], self.changes[which, ENOUGH] = np.inf, enough
-
-    def go_on(self, marches: Marches, which: Which, n_periods: int) -> None:
-        """Go on for so many periods at most."""
-        m = marches
-        seek(m.kernel, m.blocks, m.v, m.s, m.roots, m.mean_F_z, which, n_periods, m.new_trace(), *self)
+    def begin(self, x: Array, enough: float) -> None:
+        """Begin at this state; it ends where a period changes no more than is enough."""
+        self.states[X] = x
+        self.counts[: ENDED + 1] = 0
+        self.changes[:ENOUGH], self.changes[ENOUGH] = np.inf, enough
 
 
 @compiled(nogil=True, error_model="numpy", fastmath=_FAST)
-def seek(kernel, blocks, v, s, roots, mean_F_z, which, n_periods, trace, states, past, counts, changes, told):
-    """Go on with searches, each period begun within the cone of friction. The first arguments as of Marches."""
-    n_t, room = int(blocks[0, N_T]), np.empty_like(s[0])
-    for c in which:
-        vectors = states[c]
-        for _ in range(n_periods):
-            if counts[c, ENDED]:
-                break
-            put(s[c], room)
-            within_friction(vectors[X], room)
-            copy(vectors[X], vectors[START])
-            copy(vectors[X], vectors[IMAGE])
-            solved = kernel(blocks[c], v[c], vectors[IMAGE], room, n_t, trace)
-            counts[c, ENDED] = combine(roots[c], vectors, past[c], counts[c], changes[c])
-            counts[c, UNSOLVED] = 0 if solved else counts[c, UNSOLVED] + 1
-            if counts[c, UNSOLVED] > PATIENCE:
-                changes[c, LEAST], counts[c, ENDED] = np.nan, 1
-        tell(blocks[c], trace, mean_F_z[c], told[c])
+def seek(kernel, block, v, s, roots, n_periods, trace, states, past, counts, changes):
+    """Go on with a search for so many periods at most, each begun within the cone of friction.
+
+    kernel, block, v: what is marched (kernel.py); s (1 + J, n): compressions at phase 0; roots (n_x,): of stiffness and
+    mass, a state times them is as long as the root of its energy. trace: flat, of the last period.
+    """
+    n_t, room = int(block[N_T]), np.empty_like(s)
+    for _ in range(n_periods):
+        if counts[ENDED]:
+            break
+        put(s, room)
+        within_friction(states[X], room)
+        copy(states[X], states[START])
+        copy(states[X], states[IMAGE])
+        solved = kernel(block, v, states[IMAGE], room, n_t, trace)
+        counts[ENDED] = combine(roots, states, past, counts, changes)
+        counts[UNSOLVED] = 0 if solved else counts[UNSOLVED] + 1
+        if counts[UNSOLVED] > PATIENCE:
+            changes[LEAST], counts[ENDED] = np.nan, 1
 
 
 @_inner

@@ -20,7 +20,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from mdr.march.dynamics.state import LEAST_SLIP, MarchState
+from mdr.march.dynamics.state import MarchState
 from mdr.march.dynamics.stepper import Stepper
 from mdr.march.periodic.search import FORGOTTEN, Orbit
 from mdr.march.periodic.settling import Settling
@@ -101,7 +101,7 @@ class _Springs:
         cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
         spread = 2 * off / stepper.mean_F_z
         settling = Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y)
-        return Orbit(end, periods, settling, float(stepper.told[LEAST_SLIP]))
+        return Orbit(end, periods, settling, stepper.least_slip(stepper.trace))
 
     def _state(self, x: Array) -> MarchState:
         parts = self.like.e.shape[0]

@@ -4,20 +4,16 @@ energy of springs, system spring and mass.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from mdr.march.dynamics.body import N_BODY, RATE, Y
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.marches import Marches
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import AT_ONCE, Periods, Stepper
-from mdr.march.periodic import shooting
 from mdr.march.periodic.settling import LATE, Settling
-from mdr.march.periodic.shooting import SOLVED_TOLERANCE, Shots
+from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Options, Shooting, SlowMotions, Told
 from mdr.tools.arrays import Array
 
 FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
@@ -26,15 +22,6 @@ SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resoluti
 MEMORY, MOST = 8, 80  #: periods that Anderson's method combines, and after which it gives up
 A_TIME = (3, 20)  #: how many more of both each slow time of a material gets
 PLAIN = 3  #: periods marched before the first combination, while springs find their modes
-
-
-class SlowMotions(NamedTuple):
-    """What is known of the slow motions about a periodic state: k displacements that outlive a few periods, in all
-    parts (k, n_x) of the state, and what they are a period later.
-    """
-
-    before: Array
-    after: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,59 +48,26 @@ def search(
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
     motions about them.
     """
-    at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
+    n_before, how = stepper.n_periods, _how(stepper.scaled, 0 if near else PLAIN)
     for start in starts:
-        marches = marches_of([stepper], [start])
-        shots = Shots(marches, np.array([stepper.tolerance]))
-        if gain is not None:
-            shots.gain[0] = gain
-        if motions is not None:
-            shots.before[0], shots.after[0] = motions
-            shots.has_motions[0] = True
-        memory, most = (of + more * marches.n_slow for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
-        shots.shoot(start.x[None], 0 if near else PLAIN, memory, most, at_once)
-        orbit = orbit_of(shots, 0)
-        stepper.ticker.tick(int(shots.n_periods[0]))
-        if orbit is not None and (shots.found[0] or marches.n_slow or orbit.settling.settled):
-            stepper.n_periods += int(shots.n_periods[0])  # waiting for slow motions takes far longer
-            return orbit
+        shooting = Shooting(stepper, start, how)
+        shooting.gain, shooting.motions = gain, motions
+        told = shooting.shoot(start.x)
+        if told is not None:
+            orbit = _orbit(told, start, shooting.motions)
+            if told.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer
+                return orbit
+    stepper.n_periods = n_before
     return None
 
 
-def marches_of(steppers: Sequence[Stepper], starts: Sequence[MarchState]) -> Marches:
-    """Contacts of one kind and size that are to be marched together, from states at phase 0."""
-    scaled = [one.scaled for one in steppers]
-    roots = np.array([roots_of(one) for one in scaled])
-    slow = [_slow_times(one) for one in scaled]
-    return Marches(
-        kernel=steppers[0].kernel,
-        blocks=np.array([one.block for one in steppers]),
-        v=np.array([one.v for one in steppers]),
-        s=np.array([one.s for one in starts]),
-        roots=roots,
-        pushes=np.array([pushes_of(one, of) for one, of in zip(scaled, roots, strict=True)]),
-        mean_F_z=np.array([one.mean_F_z for one in steppers]),
-        slow=np.array([max(times, default=0.0) for times in slow]),
-        n_slow=max(len(times) for times in slow),
-        stable=np.array([one.body.rigid or one.body.C > 0 for one in scaled]),
-    )
-
-
-def orbit_of(shots: Shots, c: int) -> Orbit | None:
-    """The periodic state of one contact, if there is one."""
-    if not shots.has_state[c]:
-        return None
-    cof, cof_y, swing, least = shots.told[c].tolist()
-    gain, spread, late = float(shots.gain[c]), float(shots.spread[c]), bool(shots.late[c])
-    motions = SlowMotions(shots.before[c], shots.after[c]) if shots.has_motions[c] else None
-    if spread <= SOLVED_TOLERANCE and not late:
-        settling = Settling(cof, spread, True, "periodic", gain, across=cof_y)
-    else:
-        why = LATE if late else "a periodic state was found, but not how far it may be from the exact one"
-        spread = UNKNOWN if late else min(spread, UNKNOWN)
-        settling = Settling(cof, spread, False, "unsettled", gain, why, across=cof_y)
-    state = MarchState(shots.state[c], shots.marches.s[c].copy())
-    return Orbit(state, Periods(*np.array([[cof], [swing], [cof_y]])), settling, least, motions)
+def _how(scaled: ScaledContact, plain: int) -> Options:
+    """How to look for the periodic state of a contact; plain: periods before the first combination."""
+    slow, roots = _slow_times(scaled), roots_of(scaled)
+    stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
+    memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
+    at_once = max(1, AT_ONCE // scaled.drive.steps)
+    return Options(roots, pushes_of(scaled, roots), slow, stable, memory, most, plain, at_once)
 
 
 def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
@@ -122,10 +76,22 @@ def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
     if 2 * np.pi < scaled.law.T:
         slow += (scaled.law.T / (2 * np.pi),)
     if slow and scaled.body.C:
-        slow += (scaled.body.M / (np.pi * scaled.body.C) / shooting.CREEP,)
+        slow += (scaled.body.M / (np.pi * scaled.body.C) / CREEP,)
     if scaled.body.pull_time > SLOW_PULL:
-        slow += (2 * scaled.body.pull_time / shooting.CREEP,)  # a material may be slower than is seen; this is known
+        slow += (2 * scaled.body.pull_time / CREEP,)  # a material may be slower than is seen; this is known
     return slow
+
+
+def _orbit(told: Told, like: MarchState, motions: SlowMotions | None) -> Orbit:
+    """The periodic state that a search has come to."""
+    (cof,), _, (cof_y,) = (column.tolist() for column in told.period)
+    if told.spread <= SOLVED_TOLERANCE and not told.late:
+        settling = Settling(cof, told.spread, True, "periodic", told.gain, across=cof_y)
+    else:
+        why = LATE if told.late else "a periodic state was found, but not how far it may be from the exact one"
+        spread = UNKNOWN if told.late else min(told.spread, UNKNOWN)
+        settling = Settling(cof, spread, False, "unsettled", told.gain, why, across=cof_y)
+    return Orbit(MarchState(told.state, like.s.copy()), told.period, settling, told.least_slip, motions)
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:

@@ -1,4 +1,4 @@
-"""The periodic state of body and springs by shooting: solved for instead of awaited; of many contacts at once.
+"""The periodic state of body and springs by shooting: solved for instead of awaited.
 
 One period of the march is a map x -> P(x) of the state of body and springs; a periodic motion is its fixed point.
 Friction under a given normal motion is monotone, so two motions never move apart (validation/uniqueness.py): P is
@@ -22,12 +22,28 @@ follows from the gain as known before. If the gain turns out to be larger, the s
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import dataclass
+from typing import NamedTuple
 
-from mdr.march.dynamics.marches import Marches, Which
-from mdr.march.dynamics.state import COF, LEAST_SLIP, TOLD
-from mdr.march.periodic.anderson import BEST, ENDED, ENOUGH, IMAGES, KEPT, LEAST, MOVES, PERIODS, SINCE, START, Search
+import numpy as np
+
+from mdr.march.dynamics.kernel import new_trace, trace_of
+from mdr.march.dynamics.state import MarchState
+from mdr.march.dynamics.stepper import Periods, Stepper
+from mdr.march.periodic.anderson import (
+    BEST,
+    ENDED,
+    ENOUGH,
+    IMAGES,
+    KEPT,
+    LEAST,
+    MOVES,
+    PERIODS,
+    SINCE,
+    START,
+    Search,
+    seek,
+)
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import time_is_over
 
@@ -49,199 +65,220 @@ SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes 
 LOST = 5  #: corrections in a row of which no share was a gain, after which it ends
 
 
-class Shots:
-    """Searches for the periodic states of contacts that are marched together (C of them, of n_x numbers each)."""
+class SlowMotions(NamedTuple):
+    """What is known of the slow motions about a periodic state: k displacements that outlive a few periods, in all
+    parts (k, n_x) of the state, and what they are a period later.
+    """
 
-    def __init__(self, marches: Marches, tolerance: Array) -> None:
-        n, k, n_x = marches.pushes.shape
-        self.marches, self.tolerance = marches, tolerance  #: (C,) of cof/mu_0
-        #: (C,) bound on the distance from the periodic state over the change in a period
-        self.gain = np.full(n, np.nan)
-        #: (C,) whether the slow motions about it are known, displacements (C, k, n_x) that outlive a few periods, and
-        #: what they are a period later
-        self.has_motions = np.zeros(n, dtype=bool)
-        self.before, self.after = np.empty((2, n, k, n_x))
-        #: (C, n_x) the periodic state, at the begin and the end of the period that is told, (C, TOLD) of state.py
-        self.begins, self.state = np.empty((2, n, n_x))
-        self.told = np.full((n, TOLD), np.nan)
-        self.spread = np.full(n, np.inf)  #: (C,) bound on the error of the COF over mu_0
-        self.late, self.slips = np.zeros((2, n), dtype=bool)  #: (C,) whether springs are; whether it is full slip
-        self.found, self.has_state = np.zeros((2, n), dtype=bool)  #: (C,) whether one is close enough; whether any is
-        self.n_periods = np.zeros(n, dtype=np.int64)  #: (C,) marched
+    before: Array
+    after: Array
 
-    def shoot(self, x: Array, plain: int, memory: int, most: int, at_once: int) -> None:
-        """Search from these states (C, n_x) on. plain: periods before the first combination; memory, most: periods that
-        are combined, and after which Anderson's method gives up; at_once: periods between two looks at the clock.
+
+@dataclass(frozen=True, eq=False)
+class Options:
+    """How to look for a periodic state, of n_x numbers."""
+
+    roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
+    pushes: Array  #: (k, n_x) displacements of unit length along slow motions
+    slow: tuple[float, ...]  #: relaxation times of material and pull, in periods, that a period does not relax
+    stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
+    memory: int  #: periods that Anderson's method combines
+    most: int  #: periods after which it gives up
+    plain: int  #: periods before the first combination, while springs find their modes
+    at_once: int  #: periods between two looks at the clock
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """A periodic state that was found."""
+
+    begin: Array  #: (n_x,) state at the begin of the period that is told
+    state: Array  #: (n_x,) and at its end
+    period: Periods
+    least_slip: float  #: in that period, the way of the pull, of springs that slip all the time
+    gain: float  #: bound on the distance from the exact one, over the change in a period
+    spread: float  #: bound on the error of the COF over mu_0
+    late: bool  #: whether springs are late
+    is_close: bool  #: whether it is as close as is asked for
+
+
+class Shooting:
+    """A search for the periodic state of a march, from a state on."""
+
+    def __init__(self, stepper: Stepper, start: MarchState, how: Options) -> None:
+        self.stepper, self.how, self.s = stepper, how, start.s
+        self.search = Search.of(start.x.size, how.memory, how.plain, how.most)
+        self.flat = new_trace(stepper.block, 1)  # type: ignore[no-untyped-call]
+        self.trace = trace_of(self.flat, stepper.scaled.drive.steps, stepper.scaled.in_plane)  # type: ignore[no-untyped-call]
+        self.gain: float | None = None  #: bound on the distance from the periodic state over the change in a period
+        self.motions: SlowMotions | None = None  #: the slow ones about it, where they are known
+
+    def shoot(self, x: Array) -> Told | None:
+        """Search from a state on: the periodic state, close enough or the best that there is."""
+        stepper, search, found = self.stepper, self.search, None
+        close = stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
+        while True:
+            self._begin(x, close)
+            if not self._sought():
+                return found
+            best = search.states[BEST]
+            last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
+            if last and (slip := self._slip_for_good()):
+                begin, period = search.states[START].copy(), stepper.periods_of(self.trace)
+                return Told(begin, best.copy(), period, slip, np.inf, 0.0, False, True)
+            if search.changes[LEAST] > search.changes[ENOUGH]:
+                last = False
+                self._correct()
+            near = search.changes[LEAST] <= max(search.changes[ENOUGH], CLOSE)
+            if near and self.gain is None:
+                self.gain = self._measured()
+            if not near or self.gain is None:
+                if close <= CLOSE:
+                    return found
+                x, close = best, CLOSE
+                continue
+            found = self._told(last, close)
+            if found.is_close or close <= CLOSEST or time_is_over():
+                return found
+            x, close = best, close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
+
+    def _begin(self, x: Array, close: float) -> None:
+        """Seek from a state on; what is known of slow motions is combined from the first period on."""
+        search = self.search
+        search.begin(x, max(close, CLOSEST))
+        if self.motions is not None:
+            k = min(len(self.motions.after), search.past.shape[1])
+            before, after = (of[:k] for of in self.motions)
+            search.past[IMAGES, :k], search.past[MOVES, :k] = after, self.how.roots * (after - before)
+            search.counts[KEPT] = k
+
+    def _sought(self) -> bool:
+        """Whether Anderson's method has come to its end in time, with a state."""
+        stepper, search = self.stepper, self.search
+        marched = stepper.kernel, stepper.block, stepper.v, self.s, self.how.roots, self.how.at_once, self.flat
+        while not search.counts[ENDED]:
+            if time_is_over():
+                return False
+            before = int(search.counts[PERIODS])
+            seek(*marched, *search)
+            stepper.count(int(search.counts[PERIODS]) - before)
+        return bool(np.isfinite(search.changes[LEAST]))
+
+    def _period(self, x: Array) -> Array:
+        """The state a period later, which begins within the cone of friction."""
+        return self.stepper.period(self.stepper.within_friction(MarchState(x.copy(), self.s.copy()))).x
+
+    def _length(self, x: Array) -> float:
+        """Root of the energy of a state."""
+        return float(np.linalg.norm(self.how.roots * x))
+
+    def _slip_for_good(self) -> float:
+        """The least slip velocity of the best state if it is one of full slip that is more than AGES times what changes
+        over a period; else zero. It need not be close to the exact periodic state: the COF is the same.
+
+        Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
         """
-        marches = self.marches
-        n, n_x = x.shape
-        self.search = search = Search.of(n, n_x, memory, plain, most)
-        first = self.tolerance / (SHARE * np.where(np.isnan(self.gain), np.maximum(1.0, marches.slow), self.gain))
-        which = self._begin(np.arange(n), x, first)
-        while which.size and not time_is_over():
-            periods = search.counts[which, PERIODS]
-            search.go_on(marches, which, at_once)
-            self.n_periods[which] += search.counts[which, PERIODS] - periods
-            ready = search.counts[which, ENDED] == 1
-            goes_on, ended = which[~ready], which[ready & np.isfinite(search.changes[which, LEAST])]
-            which = np.concatenate([goes_on, self._judged(ended)])
+        search, stepper, body = self.search, self.stepper, self.stepper.scaled.body
+        if not abs(1 - stepper.periods_of(self.trace).cof[-1]) <= FULL:
+            return 0.0
+        drift = float(search.changes[LEAST]) * self._length(search.states[BEST])
+        drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
+        least = stepper.least_slip(self.trace)
+        return least if AGES * drift < least < np.inf else 0.0
 
-    def _begin(self, which: Which, x: Array, close: Array) -> Which:
-        """Seek from states (m, n_x) on; what is known of slow motions is combined from the first period on."""
-        search, marches = self.search, self.marches
-        search.begin(which, x, np.maximum(close, CLOSEST))
-        known = which[self.has_motions[which]]
-        if known.size:
-            k = min(self.after.shape[1], search.past.shape[2])
-            before, after = self.before[known, :k], self.after[known, :k]
-            search.past[known, IMAGES, :k], search.counts[known, KEPT] = after, k
-            search.past[known, MOVES, :k] = marches.roots[known, None] * (after - before)
-        return which
+    def _told(self, last: bool, close: float) -> Told:
+        """The COF of the periodic state, and how far it may be from that of the exact one.
 
-    def _judged(self, which: Which) -> Which:
-        """What Anderson's method has ended with, of these contacts; those of them that go on."""
-        search, (counts, changes) = self.search, (self.search.counts, self.search.changes)
-        told = search.told[which]
-        last = counts[which, SINCE] == counts[which, PERIODS] - 1  # the last period is that of the best state
-        change = changes[which, LEAST] * self.marches.length(search.states[which, BEST], which)
-        full = last & (np.abs(1 - told[:, COF]) <= FULL) & (told[:, LEAST_SLIP] > AGES * self._drift(which, change))
-        self._leave(which[full], search.states[which[full], START], search.states[which[full], BEST], told[full])
-        slipping = which[full]
-        self.slips[slipping] = self.found[slipping] = True
-        self.gain[slipping], self.spread[slipping] = np.inf, 0.0
-        which, last = which[~full], last[~full]
-        for c in which[changes[which, LEAST] > changes[which, ENOUGH]]:
-            last &= which != c
-            self._corrected(c)
-        close = changes[which, ENOUGH]
-        near = changes[which, LEAST] <= np.maximum(close, CLOSE)
-        if (unknown := which[near & np.isnan(self.gain[which])]).size:
-            self._measure(unknown)
-        near &= ~np.isnan(self.gain[which])
-        again = which[~near & (close > CLOSE)]
-        self._begin(again, search.states[again, BEST], np.full(again.size, CLOSE))
-        return np.concatenate([again, self._told(which[near], last[near])]) if near.any() else again
-
-    def _drift(self, which: Which, change: Array) -> Array:
-        """Velocity of a body that moves by no more than the change in a period; under a rigid pull that of springs."""
-        roots = self.marches.roots[which]
-        rate = roots[:, -self.marches.ways]
-        place = roots[:, -2 * self.marches.ways]
-        return np.asarray(change / np.where(rate > 0, rate, np.where(place > 0, place, 1.0)))
-
-    def _leave(self, which: Which, begin: Array, end: Array, told: Array) -> None:
-        self.begins[which], self.state[which], self.told[which], self.has_state[which] = begin, end, told, True
-
-    def _told(self, which: Which, last: NDArray[np.bool_]) -> Which:
-        """The COF of periodic states, and how far it may be from that of the exact ones; those that have to go on.
-
-        last: whether the last period that was marched is theirs.
+        last: whether the last period that was marched is its own.
         """
-        marches, search = self.marches, self.search
-        best, change, close = (search.states[which, BEST], search.changes[which, LEAST], search.changes[which, ENOUGH])
-        begin, end, told = search.states[which, START], best.copy(), search.told[which]
-        if not last.all():
-            other = ~last
-            begin[other] = best[other]
-            end[other], told[other] = marches.period(best[other], which[other])
-            self.n_periods[which[other]] += 1
-        self._leave(which, begin, end, told)
+        stepper, search = self.stepper, self.search
+        begin, state, trace = search.states[START].copy(), search.states[BEST].copy(), self.trace
+        if not last:
+            begin = stepper.within_friction(MarchState(state, self.s)).x
+            state, trace = self._period(begin), stepper.trace
+        period = stepper.periods_of(trace)
         # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
-        distance = (change + 1e-15) * self.gain[which]  # 1e-15: rounding
-        spread = 2 * distance * marches.length(best, which) / marches.mean_F_z[which]
-        tolerance, lacks = self.tolerance[which], marches.late(begin, end, which)
-        self.spread[which], self.late[which] = spread, (lacks > tolerance) & (marches.v[which] > 0)
-        lacking = 1 - told[:, COF]
-        settled = (spread <= np.minimum(tolerance, SOLVED_TOLERANCE)) & ~self.late[which]
-        found = settled & ((close <= CLOSE) | ~((lacking > FULL) & (lacking < SOLVED_TOLERANCE)))
-        self.found[which[found]] = True
-        again = ~found & (close > CLOSEST)
-        finer = close * np.minimum(0.01, tolerance / (SHARE * spread + 1e-300))
-        return self._begin(which[again], best[again], finer[again])
+        distance = (float(search.changes[LEAST]) + 1e-15) * (self.gain or 0.0)  # 1e-15: rounding
+        spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_F_z
+        ends = MarchState(begin, self.s), MarchState(state, self.s)
+        late = stepper.v > 0 and stepper.late(*ends, 1) > stepper.tolerance
+        settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
+        nearly_full = FULL < 1 - period.cof[-1] < SOLVED_TOLERANCE  # it has to be told from nothing
+        is_close = settled and (close <= CLOSE or not nearly_full)
+        slip = stepper.least_slip(trace) if abs(1 - period.cof[-1]) <= FULL else 0.0
+        return Told(begin, state, period, slip, self.gain or 0.0, spread, late, bool(is_close))
 
-    def _pushed(self, which: Which, ways: Array, push: Array) -> tuple[Array, Array, Array]:
-        """Push the best states (m,) by a share (m,) of their size. What these come to after some periods, and a period
-        later (m, 2, n_x); what their pushes have become then (m, 2, k, n_x), as displacements from there; their length.
+    def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
+        """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
+        what its pushes have become then (2, k, n_x), as displacements from there; their length.
 
         ways (k,): signs.
         """
-        marches, best = self.marches, self.search.states[which, BEST]
-        size = marches.length(best, which)
-        size = push * np.where(size > 0, size, 1.0)  # of a state that is nothing, as in flight, the unit
-        pushes = marches.pushes[which] * ways[:, None]
-        x = np.concatenate([best[:, None], best[:, None] + size[:, None, None] * pushes], axis=1)
-        m, k, n_x = x.shape
-        x, each = x.reshape(m * k, n_x), np.repeat(which, k)
-        for _ in range(BETWEEN):
-            x, _ = marches.period(x, each)
-        image, _ = marches.period(x, each)
-        self.n_periods[which] += (BETWEEN + 1) * k
-        pairs = np.stack([x.reshape(m, k, n_x), image.reshape(m, k, n_x)], axis=1)
-        return pairs[:, :, 0], pairs[:, :, 1:] - pairs[:, :, :1], size
+        best = self.search.states[BEST]
+        size = push * (self._length(best) or 1.0)  # of a state that is nothing, as in flight, the unit
+        x = np.concatenate([best[None], best + size * ways[:, None] * self.how.pushes])
+        pairs = np.empty((2, *x.shape))
+        for j, one in enumerate(x):
+            for _ in range(BETWEEN):
+                one = self._period(one)
+            pairs[:, j] = one, self._period(one)
+        return pairs[:, 0], pairs[:, 1:] - pairs[:, :1], size
 
-    def _measure(self, which: Which) -> None:
-        """Bound on the distance to the fixed point over the change over a period, of states that return so closely that
-        their own change is small beside a push, and blurs what is seen of it. It stays unknown where the map expands.
+    def _measured(self) -> float | None:
+        """Bound on the distance to the fixed point over the change over a period, of a state that returns so closely
+        that its own change is small beside a push, and blurs what is seen of it; None for a map that expands.
         """
-        marches = self.marches
-        _, moved, size = self._pushed(which, np.ones(self.after.shape[1]), np.full(which.size, PUSH))
-        self.before[which], self.after[which] = moved[:, 0], moved[:, 1]
-        seen = moved * marches.roots[which, None, None] / size[:, None, None, None]
-        whole = np.isfinite(seen).all(axis=(1, 2, 3))
-        which, seen = which[whole], seen[whole]
-        self.has_motions[which] = True
-        left, lengths, right = np.linalg.svd(seen[:, 0].transpose(0, 2, 1), full_matrices=False)
+        roots, slow = self.how.roots, max(self.how.slow, default=0.0)
+        _, moved, size = self._pushed(np.ones(len(self.how.pushes)), PUSH)
+        before, after = moved * roots / size
+        if not np.isfinite(moved).all():
+            return None
+        self.motions = SlowMotions(*moved)
+        left, lengths, right = np.linalg.svd(before.T, full_matrices=False)
         lasts = lengths > FORGOTTEN
-        with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = np.where(lasts, 1 / lengths, 0.0)
-        images = seen[:, 1].transpose(0, 2, 1) @ (right.transpose(0, 2, 1) * inverse[:, None])
-        left = left * lasts[:, None]
-        onto = left.transpose(0, 2, 1) @ images  # nothing in rows and columns of what does not last
-        missed = np.sqrt(((images - left @ onto) ** 2).sum(axis=1)).max(axis=1)
-        largest = np.abs(np.linalg.eigvals(onto)).max(axis=1)
-        along = np.eye(onto.shape[1]) * np.where(lasts, 1.0, 10.0)[:, None]  # which is least of none that lasts
-        least = np.linalg.svd(along - onto, compute_uv=False)[:, -1] - missed - self.search.changes[which, LEAST] / PUSH
-        gain, slow = 1 / np.maximum(least, 1e-300), marches.slow[which]
-        with np.errstate(divide="ignore"):
-            creep = -1 / np.expm1(-1 / (CREEP * slow))  # few arms are told apart in so short a time
-            told_apart = np.where(marches.stable[which], creep, np.maximum(gain, creep))
-            gain = np.where(slow > 0, np.where(largest < STABLE, 1 / (1 - largest), told_apart), gain)
-        gain = np.where(lasts.any(axis=1), gain, 1 / (1 - lengths[:, 0] ** (1 / BETWEEN)))
-        self.gain[which] = np.where(largest > EXPANDS, np.nan, gain)
+        if not lasts.any():
+            return float(1 / (1 - lengths[0] ** (1 / BETWEEN)))
+        images = after.T @ right[lasts].T / lengths[lasts]
+        onto = left[:, lasts].T @ images
+        missed = float(np.linalg.norm(images - left[:, lasts] @ onto, axis=0).max())
+        largest = float(np.abs(np.linalg.eigvals(onto)).max())
+        if largest > EXPANDS:
+            return None
+        if slow and largest < STABLE:
+            return 1 / (1 - largest)
+        least = float(np.linalg.svd(np.eye(len(onto)) - onto, compute_uv=False)[-1])
+        along = 1 / max(least - missed - float(self.search.changes[LEAST]) / PUSH, 1e-300)
+        if not slow:
+            return along
+        creep = -1 / float(np.expm1(-1 / (CREEP * slow)))  # few arms are told apart in so short a time
+        return creep if self.how.stable else max(along, creep)
 
-    def _corrected(self, c: int) -> None:
-        """Newton-Picard corrections of the best state of one contact along the pushed motions, for a state of less
-        change over a period.
+    def _correct(self) -> None:
+        """Newton-Picard corrections of the best state along the pushed motions, for one of less change over a period.
 
         The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go
         the same way and as far, to see the slope on both sides of it.
         """
-        marches, search, one, push, lost = self.marches, self.search, np.array([c]), PUSH, 0
-        roots, ways = marches.roots[c], np.ones(self.after.shape[1])
+        search, roots, push, lost = self.search, self.how.roots, PUSH, 0
+        ways = np.ones(len(self.how.pushes))
         for _ in range(TURNS):
-            change, close = search.changes[c, [LEAST, ENOUGH]]
-            if not change > close or lost == LOST or time_is_over():
+            if not search.changes[LEAST] > search.changes[ENOUGH] or lost == LOST or time_is_over():
                 break
-            pair, moved, _ = self._pushed(one, ways, np.array([push]))
-            (begin, image), (before, after) = pair[0], moved[0]
-            size, move = float(np.linalg.norm(roots * image)) + 1e-300, roots * (image - begin)
-            change = float(np.linalg.norm(move)) / size
-            turn = (roots * (after - before)).T
+            (begin, image), (before, after), _ = self._pushed(ways, push)
+            size, move = self._length(image) + 1e-300, roots * (image - begin)
+            change, turn = float(np.linalg.norm(move)) / size, (roots * (after - before)).T
+            search.states[BEST], search.changes[LEAST] = image, change
             if not np.isfinite(turn).all():
-                lost = LOST
-                continue
+                break
             share = -np.linalg.lstsq(turn, move, rcond=1e-12)[0]
             step, ways = share @ after, ways * np.where(share < 0, -1, 1)
             part, lost, push = 1.0, lost + 1, 0.1 * push  # if no part is a gain, what these pushes saw was not of here
             while part >= SHORTEST:
                 tried = image + part * step
-                reached = marches.period(tried[None], one)[0][0]
-                self.n_periods[c] += 1
-                less = float(np.linalg.norm(roots * (reached - tried))) / size
+                reached = self._period(tried)
+                less = self._length(reached - tried) / size
                 if less < (1 - 0.1 * part) * change:
-                    push = float(np.linalg.norm(part * roots * step)) / size
-                    push = float(np.clip(push, 1e-9, PUSH if part == 1 else FARTHEST))
-                    image, change, lost = reached, less, 0
+                    push = float(np.clip(part * self._length(step) / size, 1e-9, PUSH if part == 1 else FARTHEST))
+                    search.states[BEST], search.changes[LEAST], lost = reached, less, 0
                     break
                 part *= 0.5
-            search.states[c, BEST], search.changes[c, LEAST] = image, change

@@ -16,7 +16,6 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.state import LEAST_SLIP as SLIP
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, Periods, Stepper
 from mdr.march.periodic.each_alone import search_alone
 from mdr.march.periodic.search import (
@@ -31,7 +30,7 @@ from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.solver import OutOfTime
 from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
-from mdr.normal.springs import SpringArray
+from mdr.normal.springs import SpringArray, springs_of
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
@@ -64,6 +63,7 @@ class Resolution(NamedTuple):
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
     free: tuple[bool, bool] = (False, False)  #: whether springs and steps are doubled until the error is within it
     bounded: bool = True  #: whether companions, runs of fewer springs and steps, bound the error
+    alike: float = np.inf  #: gap [amplitudes] up to which springs in contact do the same, if known: `alike_to`
 
     def of_size(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
         """The resolution of a companion with other steps or springs, that keeps nothing."""
@@ -264,6 +264,26 @@ def looked_at(end: Converged) -> Observed:
     return march.contradicted(why) if why else march
 
 
+def alike_to(end: Converged) -> float:
+    """Gap [amplitudes] up to which springs that keep contact do the same but for their gap, as a periodic state shows;
+    infinite where all do, or each for itself.
+
+    Under a body that swings back, springs slip back whose force comes to that of friction there. One that does not has
+    the force f = L[s] - D, with D >= 0 what it lacks to slip forward, the same for all of them, which differ by a
+    constant in L[s]. So one that is pressed less by the least of (f + L[s])/2 in a period just does not slip back.
+    """
+    scaled, stepper = end.scaled, end.stepper
+    if scaled.body.rigid or scaled.ways == 2 or scaled.drive.is_shaken or scaled.slow.rho:
+        return np.inf
+    deepest = int(np.argmin(scaled.springs.gap))
+    gap = float(scaled.springs.gap[deepest])
+    f, f_z = stepper.forces_of(end.orbit.state, deepest)
+    reach = gap + 0.5 * float((f + f_z).min())
+    if reach > end.case.kept_gap - scaled.drive.h**2 / 4:  # what nodes may miss of the least value
+        return np.inf
+    return reach if reach > gap else -np.inf
+
+
 def check(case: SlidingContact, v_0: float) -> None:
     """Refuse a velocity or an amplitude that is lost in the digits of a march."""
     cycle = case.cycle
@@ -321,7 +341,7 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     """
     state, periods = stepper.advance(stepper.full_slip(), 2)
     last = Periods(*(column[-1:] for column in periods))
-    least = float(stepper.told[SLIP])
+    least = stepper.least_slip(stepper.trace)
     return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0), least)
 
 
@@ -352,15 +372,17 @@ def too_coarse(steps: int) -> ValueError:
 def at_hand(case: SlidingContact, resolution: Resolution) -> tuple[SpringArray, ScaledContact]:
     """The springs and the scaled contact, kept: runs at other velocities share them."""
     lump = resolution.lump and resolution.start == "full_slip"
-    return _scaled(case, resolution.n_springs, resolution.steps, lump)
+    return _scaled(case, resolution.n_springs, resolution.steps, lump, resolution.alike)
 
 
 @remembered(maxsize=8)
-def _springs(case: SlidingContact, n_springs: int) -> SpringArray:
-    return SpringArray.of(case, n_springs)
+def _springs(case: SlidingContact, n_springs: int, alike: float) -> SpringArray:
+    return springs_of(case, n_springs, alike)
 
 
 @remembered(maxsize=24)
-def _scaled(case: SlidingContact, n_springs: int, steps: int, lump: bool) -> tuple[SpringArray, ScaledContact]:
-    springs = _springs(case, n_springs)
+def _scaled(
+    case: SlidingContact, n_springs: int, steps: int, lump: bool, alike: float
+) -> tuple[SpringArray, ScaledContact]:
+    springs = _springs(case, n_springs, alike)
     return springs, ScaledContact.of(case, springs, steps, lump)

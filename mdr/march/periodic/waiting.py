@@ -14,7 +14,7 @@ import numpy as np
 
 from mdr.march.dynamics.body import Y
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.state import LEAST_SLIP, UNKNOWN, MarchState
+from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import TOLERANCE, Periods, Stepper, joined
 from mdr.march.periodic.search import Orbit, search
 from mdr.march.periodic.settling import LATE, MIN_PERIODS, Settling, assess, smooth_mean
@@ -89,7 +89,7 @@ class Waiting:
         return self._ended(settling)
 
     def _ended(self, settling: Settling) -> Orbit:
-        return Orbit(self.state, self.periods, settling, float(self.stepper.told[LEAST_SLIP]))
+        return Orbit(self.state, self.periods, settling, self.stepper.least_slip(self.stepper.trace))
 
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""

@@ -9,7 +9,7 @@ second order each is three times the true error. The bound is their sum. Two run
 never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than 3/8 |(2) - (4)|, as errors fall at
 most eightfold where both numbers are doubled; nor, where friction turns, less than a tenth of what is asked for. Where
 the bound is more than is asked for, steps or springs are doubled, as these companions tell, until a run would be too
-dear.
+dear. Before springs are doubled for the first time, the row is cut where the run shows that they begin to differ.
 
 Each run begins in the periodic state of one before it.
 """
@@ -31,6 +31,7 @@ from mdr.march.periodic.steady import (
     Converged,
     Resolution,
     accuracy_of,
+    alike_to,
     at_hand,
     check,
     steady,
@@ -212,6 +213,8 @@ def _refined(runs: _Runs, resolution: Resolution) -> Converged:
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed)
+        if finer.n_springs > resolution.n_springs and resolution.alike == np.inf and (alike := alike_to(main)) < np.inf:
+            finer = resolution._replace(alike=alike)
         if finer == resolution:
             return best
         resolution = finer

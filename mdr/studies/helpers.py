@@ -1,0 +1,130 @@
+"""Processes that help to compute a study: of one process, Python's lock lets one thread at a time go on.
+
+A helper is this Python with `main` as its script, so that nothing of the user's own script is run again. It reads
+pickled frames from its standard input, at first the work, then ranges of units, and answers each on its standard
+output; it ends where its input does, also if the process that asked is gone.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import warnings
+from contextlib import suppress
+from threading import Event, Thread
+from typing import IO, Any
+
+from mdr.studies.points import Points, compute
+from mdr.studies.work import Work
+
+LENGTH = 8  #: bytes that tell how long a frame is
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+LOOK = 0.2  #: s between two looks whether the study has been ended
+
+
+class Lost(RuntimeError):
+    """A helper ended in the middle of its work."""
+
+
+class Helper:
+    """A process that computes units of a work, for one thread of this one."""
+
+    def __init__(self, work: Work, ended: Event) -> None:
+        self.ended = ended
+        command = [sys.executable, "-c", "from mdr.studies.helpers import main; main()"]
+        env = {**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env)
+        Thread(target=self._end_with, daemon=True).start()
+        self.ready = self._ask(work) is True
+
+    def _end_with(self) -> None:
+        """End the process as soon as the study has been ended, or when it ends by itself."""
+        while self.process.poll() is None:
+            if self.ended.wait(LOOK):
+                self.process.kill()
+                return
+
+    def compute(self, units: range) -> Points:
+        """The points of some units. Raises what computing them raised, or Lost."""
+        answer = self._ask(units)
+        if isinstance(answer, BaseException):
+            raise answer
+        assert isinstance(answer, Points)
+        return answer
+
+    def _ask(self, what: Any) -> Any:
+        assert self.process.stdin is not None
+        assert self.process.stdout is not None
+        try:
+            send(self.process.stdin, what)
+            return receive(self.process.stdout)
+        except (EOFError, OSError) as error:
+            raise Lost(f"a process that helped ended with status {self.process.wait()}") from error
+
+    def close(self) -> None:
+        """Let it go."""
+        self.process.kill()
+        self.process.wait()
+        for pipe in (self.process.stdin, self.process.stdout):
+            assert pipe is not None
+            with suppress(BrokenPipeError):  # of what was not sent
+                pipe.close()
+
+
+def helper_for(work: Work, ended: Event) -> Helper | None:
+    """A helper; None where there can be none, as for a work with functions that only this process knows."""
+    if not sys.executable:
+        return None
+    try:
+        pickle.dumps(work)
+        helper = Helper(work, ended)
+    except (pickle.PicklingError, AttributeError, TypeError, OSError, Lost):
+        return None
+    if helper.ready:
+        return helper
+    helper.close()
+    return None
+
+
+def send(pipe: IO[bytes], what: Any) -> None:
+    """Write a frame."""
+    frame = pickle.dumps(what)
+    pipe.write(len(frame).to_bytes(LENGTH, "big") + frame)
+    pipe.flush()
+
+
+def receive(pipe: IO[bytes]) -> Any:
+    """Read a frame. Raises EOFError where there is none."""
+    length = pipe.read(LENGTH)
+    if len(length) < LENGTH:
+        raise EOFError
+    return pickle.loads(pipe.read(int.from_bytes(length, "big")))
+
+
+def main() -> None:
+    """What a helper does."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that asks
+    warnings.simplefilter("ignore")  # that one warns
+    asked, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what is printed
+    try:
+        work = receive(asked)
+    except EOFError:
+        return
+    except Exception as error:  # names of the user's script, that is not run here
+        send(answers, error)
+        return
+    send(answers, True)
+    while True:
+        try:
+            units = receive(asked)
+        except EOFError:
+            return
+        try:
+            answer: Any = compute(work, units)
+        except Exception as error:
+            answer = error
+        send(answers, answer)

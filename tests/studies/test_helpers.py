@@ -1,0 +1,104 @@
+"""Processes that help with a study: the same bits, and no trace of them when it ends, however it does."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import grids
+import numpy as np
+import pytest
+
+import mdr
+from mdr.studies import engine
+from mdr.studies.helpers import Lost, helper_for
+from mdr.studies.points import compute
+
+DEPTHS = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 24).tolist()}
+OWN = mdr.Quantity("own", "-", lambda case: 1.0)
+
+
+@pytest.fixture
+def at_once(monkeypatch):
+    """Helpers begin at once, on two cores at least."""
+    monkeypatch.setattr(engine, "ALONE", 0.0)
+    monkeypatch.setattr(engine, "cores", lambda: 2)
+
+
+def test_a_helper_computes_the_same_bits():
+    work = grids.work(grids.BODY, grids.RUNS["axes"], ("cof",), **grids.COARSE)
+    helper = helper_for(work, threading.Event())
+    there, here = (by(range(2)) for by in (helper.compute, lambda units: compute(work, units)))
+    helper.close()
+    assert np.array_equal(there.values, here.values)
+    assert np.array_equal(there.status, here.status)
+    assert helper.process.returncode is not None
+
+
+def test_a_study_is_shared_with_a_helper(at_once, monkeypatch):
+    """Each of them computes some; the one here is slow."""
+    here, now = [], engine.compute
+
+    def slowly(work, units, ended):
+        here.append(units)
+        time.sleep(0.3)
+        return now(work, units, ended)
+
+    monkeypatch.setattr(engine, "compute", slowly)
+    study = mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",))
+    assert study.complete
+    assert 0 < len(here) < 24
+    monkeypatch.setattr(engine, "cores", lambda: 1)
+    assert mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",)) == study
+
+
+def test_what_only_this_process_knows_is_computed_here(at_once):
+    work = grids.work(grids.RIGID, DEPTHS, (OWN,))
+    assert helper_for(work, threading.Event()) is None
+    assert mdr.sweep(grids.RIGID, DEPTHS, quantities=(OWN,))["own"].tolist() == 24 * [1.0]
+
+
+def test_a_function_of_a_script_is_computed_here(tmp_path):
+    """The script is not run again, although it has no guard against that."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import mdr, grids\nfrom mdr.studies import engine\nengine.ALONE = 0.0\nprint('once')\n"
+        "def own(case):\n    return 2.0\n"
+        "study = mdr.sweep(grids.RIGID, {'mu_0': [0.1, 0.2, 0.3]}, quantities=[mdr.Quantity('own', '-', own)])\n"
+        "print(study['own'].tolist())\n"
+    )
+    env = {**os.environ, "PYTHONPATH": str(Path(grids.__file__).parent)}
+    said = subprocess.run([sys.executable, script], env=env, capture_output=True, text=True, check=True, timeout=120)
+    assert said.stdout == "once\n[2.0, 2.0, 2.0]\n"
+
+
+def test_a_helper_that_is_killed_is_lost():
+    helper = helper_for(grids.work(grids.RIGID, DEPTHS), threading.Event())
+    os.kill(helper.process.pid, signal.SIGKILL)
+    helper.process.wait(timeout=60)
+    with pytest.raises(Lost, match="ended with status"):
+        helper.compute(range(1))
+    helper.close()
+
+
+def test_a_lost_helper_ends_the_study_and_says_what_is_kept(at_once, monkeypatch):
+    monkeypatch.setattr(engine, "compute", lambda work, units, ended: time.sleep(0.5) or compute(work, units, ended))
+
+    def lose(self, units):
+        raise Lost("gone")
+
+    monkeypatch.setattr("mdr.studies.helpers.Helper.compute", lose)
+    with pytest.raises(mdr.studies.StudyError, match=r"the workers were lost, .*\(gone\); nothing is kept"):
+        mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",))
+
+
+def test_a_helper_ends_with_the_study():
+    ended = threading.Event()
+    helper = helper_for(grids.work(grids.RIGID, DEPTHS), ended)
+    assert helper.process.poll() is None
+    ended.set()
+    assert helper.process.wait(timeout=60) is not None
+    helper.close()
