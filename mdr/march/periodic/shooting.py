@@ -110,7 +110,9 @@ class Shooting:
         self.search = Search.of(start.x.size, how.memory, how.plain, how.most)
         self.flat = new_trace(stepper.block, 1)  # type: ignore[no-untyped-call]
         self.trace = trace_of(self.flat, stepper.scaled.drive.steps, stepper.scaled.in_plane)  # type: ignore[no-untyped-call]
-        self.gain: float | None = None  #: bound on the distance from the periodic state over the change in a period
+        #: bound on the distance from the periodic state over the change in a period, if it is known beforehand; what is
+        #: measured depends on how close a state has come
+        self.gain: float | None = None
         self.motions: SlowMotions | None = None  #: the slow ones about it, where they are known
 
     def shoot(self, x: Array) -> Told | None:
@@ -130,14 +132,15 @@ class Shooting:
                 last = False
                 self._correct()
             near = search.changes[LEAST] <= max(search.changes[ENOUGH], CLOSE)
-            if near and self.gain is None:
-                self.gain = self._measured()
-            if not near or self.gain is None:
+            gain = self.gain
+            if near and gain is None:
+                gain = self._measured()
+            if not near or gain is None:
                 if close <= CLOSE:
                     return found
                 x, close = best, CLOSE
                 continue
-            found = self._told(last, close)
+            found = self._told(last, close, gain)
             if found.is_close or close <= CLOSEST or time_is_over():
                 return found
             x, close = best, close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
@@ -186,7 +189,7 @@ class Shooting:
         least = stepper.least_slip(self.trace)
         return least if AGES * drift < least < np.inf else 0.0
 
-    def _told(self, last: bool, close: float) -> Told:
+    def _told(self, last: bool, close: float, gain: float) -> Told:
         """The COF of the periodic state, and how far it may be from that of the exact one.
 
         last: whether the last period that was marched is its own.
@@ -198,7 +201,7 @@ class Shooting:
             state, trace = self._period(begin), stepper.trace
         period = stepper.periods_of(trace)
         # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
-        distance = (float(search.changes[LEAST]) + 1e-15) * (self.gain or 0.0)  # 1e-15: rounding
+        distance = (float(search.changes[LEAST]) + 1e-15) * gain  # 1e-15: rounding
         spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_F_z
         ends = MarchState(begin, self.s), MarchState(state, self.s)
         late = stepper.v > 0 and stepper.late(*ends, 1) > stepper.tolerance
@@ -206,7 +209,7 @@ class Shooting:
         nearly_full = FULL < 1 - period.cof[-1] < SOLVED_TOLERANCE  # it has to be told from nothing
         is_close = settled and (close <= CLOSE or not nearly_full)
         slip = stepper.least_slip(trace) if abs(1 - period.cof[-1]) <= FULL else 0.0
-        return Told(begin, state, period, slip, self.gain or 0.0, spread, late, bool(is_close))
+        return Told(begin, state, period, slip, gain, spread, late, bool(is_close))
 
     def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
         """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
