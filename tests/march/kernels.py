@@ -47,7 +47,8 @@ class OnAMap(Stepper):
         self.v, self.tolerance, self.mean_F_z, self.n_periods = 0.0, tolerance, 1.0, 0
         drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
         self.scaled = SimpleNamespace(drive=drive, body=body, in_plane=None, ways=1)
-        self.ticker = Ticker("map")
+        self.ticker, self.room = Ticker("map"), self._new_room(1)
+        self.last = self.room[1]
 
 
 def fixed_point(A, b, x, edge=np.inf, close=1e-10):

@@ -98,10 +98,9 @@ def block_of(
     return kernel_of(kind), np.concatenate([sizes, [T], *map(_numbers, bodies), *arrays])
 
 
-@register_jitable
-def new_trace(block, n_periods):
+def new_trace(block: Array, n_periods: int) -> Array:
     """Room for the flat trace of so many periods."""
-    return np.empty(OF_STEP * n_periods * int(block[N_T]) * int(block[N_WAYS]))
+    return np.zeros(OF_STEP * n_periods * int(block[N_T] * block[N_WAYS]))
 
 
 def _numbers(parts: Any) -> list[float]:

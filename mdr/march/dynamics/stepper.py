@@ -19,7 +19,7 @@ from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import Ticker, time_is_over
 
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
@@ -63,7 +63,8 @@ class Stepper:
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
         self.solved = True  # whether every step of the last march was solved for
-        self.trace: loop.Trace | None = None  # its last period
+        self.room = self._new_room(1)
+        self.last = self.room[1]  # its last period, overwritten by the next march
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
 
     def full_slip(self) -> MarchState:
@@ -116,13 +117,19 @@ class Stepper:
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
-        n_steps, in_plane = n_periods * self.scaled.drive.steps, self.scaled.in_plane
-        flat = new_trace(self.block, n_periods)  # type: ignore[no-untyped-call]
+        n_steps = n_periods * self.scaled.drive.steps
+        flat, trace = self.room if n_periods == 1 else self._new_room(n_periods)
         self.solved = self.kernel(self.block, self.v, state.x, state.s, n_steps, flat)
         self.count(n_periods)
-        trace: loop.Trace = trace_of(flat, n_steps, in_plane)  # type: ignore[no-untyped-call]
-        self.trace = trace if n_periods == 1 else loop.Trace(*(of[-self.scaled.drive.steps :].copy() for of in trace))
+        if n_periods > 1:
+            for of, last in zip(trace, self.last, strict=True):
+                last[:] = of[-len(last) :]
         return trace
+
+    def _new_room(self, n_periods: int) -> tuple[Array, loop.Trace]:
+        """Flat room for a trace, and the trace."""
+        flat, n_steps = new_trace(self.block, n_periods), n_periods * self.scaled.drive.steps
+        return flat, trace_of(flat, n_steps, self.scaled.in_plane)  # type: ignore[no-untyped-call]
 
     def count(self, n_periods: int) -> None:
         """Add periods to those that were marched."""
@@ -135,9 +142,9 @@ class Stepper:
         cof = area.sum(axis=1) / (2 * np.pi * self.mean_F_z)
         return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
 
-    def least_slip(self, trace: loop.Trace | None) -> float:
-        """Least velocity, the way of the pull, at which springs slip that all do so all the time, in a period."""
-        if trace is None:
+    def least_slip(self, trace: loop.Trace) -> float:
+        """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not."""
+        if not abs(1 - trace.area.real.sum() / (2 * np.pi * self.mean_F_z)) <= EXACT:
             return 0.0
         (z, z_dot, *_), h = self.motion, self.scaled.drive.h
         z_2, cut = np.diff(z_dot) / (2 * h), trace.parts[:, 0, 0].real > 0

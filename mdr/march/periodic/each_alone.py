@@ -101,7 +101,7 @@ class _Springs:
         cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
         spread = 2 * off / stepper.mean_F_z
         settling = Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y)
-        return Orbit(end, periods, settling, stepper.least_slip(stepper.trace))
+        return Orbit(end, periods, settling, stepper.least_slip(stepper.last))
 
     def _state(self, x: Array) -> MarchState:
         parts = self.like.e.shape[0]

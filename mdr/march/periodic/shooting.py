@@ -108,7 +108,7 @@ class Shooting:
     def __init__(self, stepper: Stepper, start: MarchState, how: Options) -> None:
         self.stepper, self.how, self.s = stepper, how, start.s
         self.search = Search.of(start.x.size, how.memory, how.plain, how.most)
-        self.flat = new_trace(stepper.block, 1)  # type: ignore[no-untyped-call]
+        self.flat = new_trace(stepper.block, 1)
         self.trace = trace_of(self.flat, stepper.scaled.drive.steps, stepper.scaled.in_plane)  # type: ignore[no-untyped-call]
         #: bound on the distance from the periodic state over the change in a period, if it is known beforehand; what is
         #: measured depends on how close a state has come
@@ -182,11 +182,10 @@ class Shooting:
         Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
         """
         search, stepper, body = self.search, self.stepper, self.stepper.scaled.body
-        if not abs(1 - stepper.periods_of(self.trace).cof[-1]) <= FULL:
+        if not (least := stepper.least_slip(self.trace)):
             return 0.0
         drift = float(search.changes[LEAST]) * self._length(search.states[BEST])
         drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
-        least = stepper.least_slip(self.trace)
         return least if AGES * drift < least < np.inf else 0.0
 
     def _told(self, last: bool, close: float, gain: float) -> Told:
@@ -198,7 +197,7 @@ class Shooting:
         begin, state, trace = search.states[START].copy(), search.states[BEST].copy(), self.trace
         if not last:
             begin = stepper.within_friction(MarchState(state, self.s)).x
-            state, trace = self._period(begin), stepper.trace
+            state, trace = self._period(begin), stepper.last
         period = stepper.periods_of(trace)
         # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
         distance = (float(search.changes[LEAST]) + 1e-15) * gain  # 1e-15: rounding
@@ -208,8 +207,7 @@ class Shooting:
         settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
         nearly_full = FULL < 1 - period.cof[-1] < SOLVED_TOLERANCE  # it has to be told from nothing
         is_close = settled and (close <= CLOSE or not nearly_full)
-        slip = stepper.least_slip(trace) if abs(1 - period.cof[-1]) <= FULL else 0.0
-        return Told(begin, state, period, slip, gain, spread, late, bool(is_close))
+        return Told(begin, state, period, stepper.least_slip(trace), gain, spread, late, bool(is_close))
 
     def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
         """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);

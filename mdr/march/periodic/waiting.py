@@ -89,7 +89,7 @@ class Waiting:
         return self._ended(settling)
 
     def _ended(self, settling: Settling) -> Orbit:
-        return Orbit(self.state, self.periods, settling, self.stepper.least_slip(self.stepper.trace))
+        return Orbit(self.state, self.periods, settling, self.stepper.least_slip(self.stepper.last))
 
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""
