@@ -2,7 +2,7 @@
 
 What a contact is to the march stands in one row of numbers, its *block*; its kind (material, pull, whether it moves in
 the plane) is compiled into the kernel. All kernels have one signature. So what is built on the march, such as the
-search for a periodic state, is compiled once for all kinds, and takes many contacts in one call.
+search for a periodic state, is compiled once for all kinds.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false

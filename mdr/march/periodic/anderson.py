@@ -1,5 +1,5 @@
-"""The compiled search for states that return after a period, by Anderson's method (1965; Walker & Ni 2011): of the last
-few periods the combination whose change over a period is least; from there the march goes on.
+"""The compiled search for a state that returns after a period, by Anderson's method (1965; Walker & Ni 2011): of the
+last few periods the combination whose change over a period is least; from there the march goes on.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false

@@ -13,7 +13,7 @@ from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import AT_ONCE, Periods, Stepper
 from mdr.march.periodic.settling import LATE, Settling
-from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Options, Shooting, SlowMotions, Told
+from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Found, Options, Shooting, SlowMotions
 from mdr.tools.arrays import Array
 
 FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
@@ -52,10 +52,10 @@ def search(
     for start in starts:
         shooting = Shooting(stepper, start, how)
         shooting.gain, shooting.motions = gain, motions
-        told = shooting.shoot(start.x)
-        if told is not None:
-            orbit = _orbit(told, start, shooting.motions)
-            if told.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer
+        found = shooting.shoot(start.x)
+        if found is not None:
+            orbit = _orbit(found, start, shooting.motions)
+            if found.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer
                 return orbit
     stepper.n_periods = n_before
     return None
@@ -82,16 +82,16 @@ def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
     return slow
 
 
-def _orbit(told: Told, like: MarchState, motions: SlowMotions | None) -> Orbit:
+def _orbit(found: Found, like: MarchState, motions: SlowMotions | None) -> Orbit:
     """The periodic state that a search has come to."""
-    (cof,), _, (cof_y,) = (column.tolist() for column in told.period)
-    if told.spread <= SOLVED_TOLERANCE and not told.late:
-        settling = Settling(cof, told.spread, True, "periodic", told.gain, across=cof_y)
+    (cof,), _, (cof_y,) = (column.tolist() for column in found.period)
+    if found.spread <= SOLVED_TOLERANCE and not found.late:
+        settling = Settling(cof, found.spread, True, "periodic", found.gain, across=cof_y)
     else:
-        why = LATE if told.late else "a periodic state was found, but not how far it may be from the exact one"
-        spread = UNKNOWN if told.late else min(told.spread, UNKNOWN)
-        settling = Settling(cof, spread, False, "unsettled", told.gain, why, across=cof_y)
-    return Orbit(MarchState(told.state, like.s.copy()), told.period, settling, told.least_slip, motions)
+        why = LATE if found.late else "a periodic state was found, but not how far it may be from the exact one"
+        spread = UNKNOWN if found.late else min(found.spread, UNKNOWN)
+        settling = Settling(cof, spread, False, "unsettled", found.gain, why, across=cof_y)
+    return Orbit(MarchState(found.state, like.s.copy()), found.period, settling, found.least_slip, motions)
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:

@@ -89,11 +89,10 @@ class Options:
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
+class Found:
     """A periodic state that was found."""
 
-    begin: Array  #: (n_x,) state at the begin of the period that is told
-    state: Array  #: (n_x,) and at its end
+    state: Array  #: (n_x,) at the end of the period that is told
     period: Periods
     least_slip: float  #: in that period, the way of the pull, of springs that slip all the time
     gain: float  #: bound on the distance from the exact one, over the change in a period
@@ -115,7 +114,7 @@ class Shooting:
         self.gain: float | None = None
         self.motions: SlowMotions | None = None  #: the slow ones about it, where they are known
 
-    def shoot(self, x: Array) -> Told | None:
+    def shoot(self, x: Array) -> Found | None:
         """Search from a state on: the periodic state, close enough or the best that there is."""
         stepper, search, found = self.stepper, self.search, None
         close = stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
@@ -126,8 +125,7 @@ class Shooting:
             best = search.states[BEST]
             last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
             if last and (slip := self._slip_for_good()):
-                begin, period = search.states[START].copy(), stepper.periods_of(self.trace)
-                return Told(begin, best.copy(), period, slip, np.inf, 0.0, False, True)
+                return Found(best.copy(), stepper.periods_of(self.trace), slip, np.inf, 0.0, late=False, is_close=True)
             if search.changes[LEAST] > search.changes[ENOUGH]:
                 last = False
                 self._correct()
@@ -188,7 +186,7 @@ class Shooting:
         drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
         return least if AGES * drift < least < np.inf else 0.0
 
-    def _told(self, last: bool, close: float, gain: float) -> Told:
+    def _told(self, last: bool, close: float, gain: float) -> Found:
         """The COF of the periodic state, and how far it may be from that of the exact one.
 
         last: whether the last period that was marched is its own.
@@ -207,7 +205,7 @@ class Shooting:
         settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
         nearly_full = FULL < 1 - period.cof[-1] < SOLVED_TOLERANCE  # it has to be told from nothing
         is_close = settled and (close <= CLOSE or not nearly_full)
-        return Told(begin, state, period, stepper.least_slip(trace), gain, spread, late, bool(is_close))
+        return Found(state, period, stepper.least_slip(trace), gain, spread, late, bool(is_close))
 
     def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
         """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
