@@ -15,6 +15,7 @@ import numpy as np
 from numba.core.dispatcher import Dispatcher
 
 import mdr
+from mdr.march.dynamics.kernel import Kernel
 from validation.cases import DEPTH, OMEGA, SHAPES, any_contact, reach
 
 MATERIALS: dict[str, mdr.Material] = {
@@ -36,15 +37,16 @@ class Clock:
     @contextmanager
     def watching(self) -> Iterator[None]:
         """With a timer in the place of every compiled function that is there; what is to run has to be compiled."""
-        modules = [vars(module) for name, module in sys.modules.items() if name.startswith("mdr.")]
-        known = [(names, name, one) for names in modules for name, one in names.items() if isinstance(one, Dispatcher)]
-        for names, name, one in known:
-            names[name] = self._timed(one)
+        modules = [module for name, module in sys.modules.items() if name.startswith("mdr.")]
+        known = [(of, name, one) for of in modules for name, one in vars(of).items() if isinstance(one, Dispatcher)]
+        known += [(Kernel, "__call__", Kernel.__call__)]
+        for of, name, one in known:
+            setattr(of, name, self._timed(one))
         try:
             yield
         finally:
-            for names, name, one in known:
-                names[name] = one
+            for of, name, one in known:
+                setattr(of, name, one)
 
     def _timed(self, function: Any) -> Any:
         def call(*given: Any) -> Any:
