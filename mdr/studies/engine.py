@@ -6,13 +6,14 @@ import os
 import sys
 import time
 import warnings
+from collections import deque
 from collections.abc import Callable, Collection, Generator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from itertools import islice
 from queue import SimpleQueue
 from random import Random
-from threading import Event, Lock, Thread
+from threading import Event, Thread
 from typing import Any
 
 from mdr.friction.cof_curve import LEAST_KNOB
@@ -177,7 +178,7 @@ def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generat
 
 def _run_here(work: Work, cut: range, chunks: Sequence[int]) -> Generator[tuple[int, Points], None, None]:
     """Compute chunks by a thread of this process, and by a helper for every other core once it has lasted a while."""
-    ended, finished, remaining, lock = Event(), SimpleQueue[tuple[int, Points] | BaseException](), iter(chunks), Lock()
+    ended, finished, remaining = Event(), SimpleQueue[tuple[int, Points] | BaseException](), deque(chunks)
 
     def compute_here(units: range) -> Points:
         return compute(work, units, ended)
@@ -185,11 +186,10 @@ def _run_here(work: Work, cut: range, chunks: Sequence[int]) -> Generator[tuple[
     def take(by: Callable[[range], Points]) -> None:
         try:
             while not ended.is_set():
-                with lock:
-                    chunk = next(remaining, None)
-                if chunk is None:
-                    return
+                chunk = remaining.popleft()
                 finished.put((chunk, by(units_of(cut, chunk))))
+        except IndexError:
+            return  # there is no chunk left
         except BaseException as error:
             finished.put(error)
 
@@ -198,9 +198,16 @@ def _run_here(work: Work, cut: range, chunks: Sequence[int]) -> Generator[tuple[
         while TALLY.clock < begin + ALONE:  # which stands still while something is compiled
             if ended.wait(0.1):
                 return
-        helper = helper_for(work, ended)
+        helper = helper_for(work, ended) if remaining else None
+
+        def compute_there(units: range) -> Points:
+            try:
+                return compute_here(units) if helper is None else helper.compute(units)
+            except Lost:
+                return compute_here(units)
+
         try:
-            take(compute_here if helper is None else helper.compute)
+            take(compute_there)
         finally:
             if helper is not None:
                 helper.close()
@@ -231,7 +238,7 @@ def _lost(error: Exception) -> bool:
     from concurrent.futures import BrokenExecutor, CancelledError
 
     # KilledWorker is of distributed, which is not imported here
-    return isinstance(error, BrokenExecutor | CancelledError | Lost) or type(error).__name__ == "KilledWorker"
+    return isinstance(error, BrokenExecutor | CancelledError) or type(error).__name__ == "KilledWorker"
 
 
 def timed(work: Work, seconds: float) -> range:

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import warnings
 from contextlib import suppress
+from io import BytesIO
 from threading import Event, Thread
 from typing import IO, Any
 
@@ -22,6 +23,7 @@ from mdr.studies.work import Work
 
 LENGTH = 8  #: bytes that tell how long a frame is
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+KNOWN = {"mdr", "numpy", "builtins", "functools"}  #: packages that are the same in every process
 LOOK = 0.2  #: s between two looks whether the study has been ended
 
 
@@ -34,8 +36,8 @@ class Helper:
 
     def __init__(self, work: Work, ended: Event) -> None:
         self.ended = ended
-        command = [sys.executable, "-c", "from mdr.studies.helpers import main; main()"]
-        env = {**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        script = f"import sys; sys.path[:] = {sys.path!r}; from mdr.studies import helpers; helpers.main()"
+        command, env = [sys.executable, "-c", script], {**os.environ, **ONE_THREAD}
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env)
         Thread(target=self._end_with, daemon=True).start()
         self.ready = self._ask(work) is True
@@ -61,7 +63,7 @@ class Helper:
         try:
             send(self.process.stdin, what)
             return receive(self.process.stdout)
-        except (EOFError, OSError) as error:
+        except (EOFError, OSError, pickle.UnpicklingError, MemoryError) as error:  # also of a frame that is none
             raise Lost(f"a process that helped ended with status {self.process.wait()}") from error
 
     def close(self) -> None:
@@ -74,12 +76,30 @@ class Helper:
                 pipe.close()
 
 
+class _Modules(pickle.Unpickler):
+    """Notes the packages that a frame needs."""
+
+    def __init__(self, frame: bytes) -> None:
+        super().__init__(BytesIO(frame))
+        self.packages: set[str] = set()
+
+    def find_class(self, module: str, name: str) -> Any:
+        """What has this name."""
+        self.packages.add(module.partition(".")[0])
+        return super().find_class(module, name)
+
+
 def helper_for(work: Work, ended: Event) -> Helper | None:
-    """A helper; None where there can be none, as for a work with functions that only this process knows."""
-    if not sys.executable:
+    """A helper; None where there can be none, or it might compute something else: a module of the user's may have been
+    changed since it was imported, as by a number that a quantity takes.
+    """
+    if not sys.executable or getattr(sys, "frozen", False):
         return None
     try:
-        pickle.dumps(work)
+        needs = _Modules(pickle.dumps(work))
+        needs.load()
+        if not needs.packages <= KNOWN:
+            return None
         helper = Helper(work, ended)
     except (pickle.PicklingError, AttributeError, TypeError, OSError, Lost):
         return None
@@ -101,13 +121,16 @@ def receive(pipe: IO[bytes]) -> Any:
     length = pipe.read(LENGTH)
     if len(length) < LENGTH:
         raise EOFError
-    return pickle.loads(pipe.read(int.from_bytes(length, "big")))
+    frame = pipe.read(size := int.from_bytes(length, "big"))
+    if len(frame) < size:
+        raise EOFError
+    return pickle.loads(frame)
 
 
 def main() -> None:
     """What a helper does."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that asks
-    warnings.simplefilter("ignore")  # that one warns
+    warnings.simplefilter("ignore")  # that one warns, of points that it computes
     asked, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what is printed
     try:
@@ -127,4 +150,8 @@ def main() -> None:
             answer: Any = compute(work, units)
         except Exception as error:
             answer = error
+        try:
+            pickle.loads(pickle.dumps(answer))
+        except Exception:  # an error that cannot be sent
+            answer = RuntimeError(f"{type(answer).__name__}: {answer}")
         send(answers, answer)

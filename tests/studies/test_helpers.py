@@ -84,15 +84,21 @@ def test_a_helper_that_is_killed_is_lost():
     helper.close()
 
 
-def test_a_lost_helper_ends_the_study_and_says_what_is_kept(at_once, monkeypatch):
-    monkeypatch.setattr(engine, "compute", lambda work, units, ended: time.sleep(0.5) or compute(work, units, ended))
+def test_what_a_lost_helper_was_to_compute_is_computed_here(at_once, monkeypatch):
+    asked, now = [], engine.compute
 
     def lose(self, units):
+        asked.append(units)
         raise Lost("gone")
 
+    monkeypatch.setattr(engine, "compute", lambda work, units, ended: time.sleep(0.3) or now(work, units, ended))
     monkeypatch.setattr("mdr.studies.helpers.Helper.compute", lose)
-    with pytest.raises(mdr.studies.StudyError, match=r"the workers were lost, .*\(gone\); nothing is kept"):
-        mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",))
+    assert mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",)).complete
+    assert asked
+
+
+def test_a_function_of_a_module_that_may_have_changed_is_computed_here():
+    assert helper_for(grids.work(grids.RIGID, DEPTHS, (grids.SLOW,)), threading.Event()) is None
 
 
 def test_a_helper_ends_with_the_study():

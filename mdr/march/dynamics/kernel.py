@@ -32,7 +32,7 @@ SIGNATURE = types.boolean(_ROW, types.float64, _ROW, _ROWS, types.int64, _ROW)
 
 #: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of the body
 #: along the pull
-N, N_T, N_ARMS, N_MODES, N_WAYS, T, ALONG = range(7)
+N, N_T, N_ARMS, N_MODES, N_WAYS, OF_T, ALONG = range(7)
 OF_BODY = 19  #: numbers of a body
 ACROSS, HEAD = ALONG + OF_BODY, ALONG + 2 * OF_BODY  #: places of the body across, and of the arrays
 OF_STEP = 10  #: numbers that a flat trace has of a step
@@ -55,8 +55,13 @@ class Kernel(types.WrapperAddressProtocol):
 
     _numba_type_ = types.FunctionType(SIGNATURE)
 
-    def __init__(self, march: Callable[..., bool]) -> None:
+    def __init__(self, march: Callable[..., bool], kind: Kind | None = None) -> None:
         self.march: Any = march
+        self.kind = kind
+
+    def __reduce__(self) -> Any:
+        """By its kind, as an address is that of a process."""
+        return kernel_of, (self.kind,)
 
     @cached_property
     def address(self) -> int:
@@ -206,7 +211,7 @@ def kernel_of(kind: Kind) -> Kernel:
         end, at = taken(block, at, n_slip)
         flight, at = taken(block, at, n_slip if has_flight is not None else 0)
         modes = given(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
-        law = Law(block[T], modes, given(Arms(rho, rate), has_arms))
+        law = Law(block[OF_T], modes, given(Arms(rho, rate), has_arms))
         motion = Motion(z, z_dot, v, vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane))
         state = as_numbers(x, in_plane)
         e = state[: s.size].reshape(s.shape)
@@ -228,4 +233,6 @@ def kernel_of(kind: Kind) -> Kernel:
             trace_of(trace, n_steps, in_plane),
         )
 
-    return Kernel(compiled(nogil=True, error_model="numpy", fastmath=FAST, no_cfunc_wrapper=False)(kernel))
+    # the name of its files in the cache, in which all kernels would have one
+    kernel.__qualname__ = "kernel_" + "".join("0" if one is None else "1" for one in kind)
+    return Kernel(compiled(nogil=True, error_model="numpy", fastmath=FAST, no_cfunc_wrapper=False)(kernel), kind)

@@ -143,19 +143,17 @@ class Stepper:
         return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
 
     def least_slip(self, trace: loop.Trace) -> float:
-        """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not."""
+        """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not. A
+        step in which contact begins counts as a whole, if it is not cut there.
+        """
         if not abs(1 - trace.area.real.sum() / (2 * np.pi * self.mean_F_z)) <= EXACT:
             return 0.0
         (z, z_dot, *_), h = self.motion, self.scaled.drive.h
-        z_2, cut = np.diff(z_dot) / (2 * h), trace.parts[:, 0, 0].real > 0
-        z_1, parts = np.diff(z) / h - z_2 * h, trace.parts.real
-        parts = np.where((cut | np.array([[False], [True]])).T[:, :, None], parts, 0.0)  # of one part no more is set
-        length = parts[:, :, 0]
-        begin = np.stack([np.zeros(length.shape[0]), length[:, 0]], axis=1)
-        first = parts[:, :, 1] - z_1[:, None] - 2 * z_2[:, None] * begin
-        last = first + 2 * (parts[:, :, 2] - z_2[:, None]) * length
-        presses = (length > 0) & (trace.area.real > 0)[:, None]
-        return float(np.minimum(first, last).min(where=presses, initial=np.inf))
+        z_2 = np.diff(z_dot) / (2 * h)
+        length, x_1, x_2 = trace.parts[:, 1].real.T
+        first = x_1 - np.diff(z) / h + z_2 * h - 2 * z_2 * (h - length)
+        last = first + 2 * (x_2 - z_2) * length
+        return float(np.minimum(first, last).min(where=trace.area.real > 0, initial=np.inf))
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""

@@ -21,7 +21,7 @@ SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is
 SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
 MEMORY, MOST = 8, 80  #: periods that Anderson's method combines, and after which it gives up
 A_TIME = (3, 20)  #: how many more of both each slow time of a material gets
-PLAIN = 3  #: periods marched before the first combination, while springs find their modes
+UNCOMBINED = 3  #: periods marched before the first combination, while springs find their modes
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +48,12 @@ def search(
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
     motions about them.
     """
-    n_before, how = stepper.n_periods, _how(stepper.scaled, 0 if near else PLAIN)
+    n_before, how = stepper.n_periods, _how(stepper.scaled, 0 if near else UNCOMBINED)
     for start in starts:
         shooting = Shooting(stepper, start, how)
         shooting.gain, shooting.motions = gain, motions
         found = shooting.shoot(start.x)
+        motions = shooting.motions
         if found is not None:
             orbit = _orbit(found, start, shooting.motions)
             if found.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer

@@ -44,6 +44,7 @@ from mdr.march.periodic.anderson import (
     Search,
     seek,
 )
+from mdr.march.periodic.solver import OutOfTime
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import time_is_over
 
@@ -55,7 +56,7 @@ CLOSEST = 1e-13  #: the same that can be reached: some roundings
 PUSH = 1e-4  #: displacement of the body, over the size of the state
 FARTHEST = 0.1  #: the same, where the motion has kinks
 BETWEEN = 2  #: periods between a push and the measurement, in which springs fall in with the body
-FORGOTTEN = 1e-5  #: of a push: what is left of it is not told from what a step of the march leaves unsolved
+DIED_OUT = 1e-5  #: of a push: what is left of it is not told from what a step of the march leaves unsolved
 CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
 EXPANDS = 1.01  #: multiplier from which on a map is not one of friction
 STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms make hard to tell apart
@@ -116,16 +117,23 @@ class Shooting:
 
     def shoot(self, x: Array) -> Found | None:
         """Search from a state on: the periodic state, close enough or the best that there is."""
+        self.best: Found | None = None
+        try:
+            return self._shot(x)
+        except OutOfTime:
+            return self.best
+
+    def _shot(self, x: Array) -> Found | None:
         stepper, search, found = self.stepper, self.search, None
         close = stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
         while True:
             self._begin(x, close)
             if not self._sought():
                 return found
-            best = search.states[BEST]
+            best = search.states[BEST].copy()
             last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
             if last and (slip := self._slip_for_good()):
-                return Found(best.copy(), stepper.periods_of(self.trace), slip, np.inf, 0.0, late=False, is_close=True)
+                return Found(best, stepper.periods_of(self.trace), slip, np.inf, 0.0, late=False, is_close=True)
             if search.changes[LEAST] > search.changes[ENOUGH]:
                 last = False
                 self._correct()
@@ -138,10 +146,10 @@ class Shooting:
                     return found
                 x, close = best, CLOSE
                 continue
-            found = self._told(last, close, gain)
+            found = self.best = self._told(last, close, gain)
             if found.is_close or close <= CLOSEST or time_is_over():
                 return found
-            x, close = best, close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
+            x, close = search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
 
     def _begin(self, x: Array, close: float) -> None:
         """Seek from a state on; what is known of slow motions is combined from the first period on."""
@@ -166,7 +174,9 @@ class Shooting:
         return bool(np.isfinite(search.changes[LEAST]))
 
     def _period(self, x: Array) -> Array:
-        """The state a period later, which begins within the cone of friction."""
+        """The state a period later, which begins within the cone of friction. Raises OutOfTime."""
+        if time_is_over():
+            raise OutOfTime
         return self.stepper.period(self.stepper.within_friction(MarchState(x.copy(), self.s.copy()))).x
 
     def _length(self, x: Array) -> float:
@@ -232,10 +242,10 @@ class Shooting:
         before, after = moved * roots / size
         if not np.isfinite(moved).all():
             return None
-        self.motions = SlowMotions(*moved)
         left, lengths, right = np.linalg.svd(before.T, full_matrices=False)
-        lasts = lengths > FORGOTTEN
+        lasts = lengths > DIED_OUT
         if not lasts.any():
+            self.motions = SlowMotions(*moved)
             return float(1 / (1 - lengths[0] ** (1 / BETWEEN)))
         images = after.T @ right[lasts].T / lengths[lasts]
         onto = left[:, lasts].T @ images
@@ -243,6 +253,7 @@ class Shooting:
         largest = float(np.abs(np.linalg.eigvals(onto)).max())
         if largest > EXPANDS:
             return None
+        self.motions = SlowMotions(*moved)
         if slow and largest < STABLE:
             return 1 / (1 - largest)
         least = float(np.linalg.svd(np.eye(len(onto)) - onto, compute_uv=False)[-1])

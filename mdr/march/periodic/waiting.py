@@ -36,7 +36,7 @@ class Waiting:
 
     def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
         self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
-        self.periods, self.late = Periods(*np.empty((3, 0))), 0.0
+        self.periods, self.late, self.least_slip = Periods(*np.empty((3, 0))), 0.0, 0.0
 
     @property
     def n(self) -> int:
@@ -55,6 +55,7 @@ class Waiting:
             self.state, periods = self.stepper.advance(before, part)
             self.append(periods)
         self.late = self.stepper.late(before, self.state, periods.cof.size)
+        self.least_slip = self.stepper.least_slip(self.stepper.last)
 
     def append(self, periods: Periods) -> None:
         """Add further periods to those that the judgement rests on."""
@@ -89,7 +90,7 @@ class Waiting:
         return self._ended(settling)
 
     def _ended(self, settling: Settling) -> Orbit:
-        return Orbit(self.state, self.periods, settling, self.stepper.least_slip(self.stepper.last))
+        return Orbit(self.state, self.periods, settling, self.least_slip)
 
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""

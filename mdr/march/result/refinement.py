@@ -213,11 +213,17 @@ def _refined(runs: _Runs, resolution: Resolution) -> Converged:
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed)
-        if finer.n_springs > resolution.n_springs and resolution.alike == np.inf and (alike := alike_to(main)) < np.inf:
+        may_be_cut = resolution.alike == np.inf and _serves_a_cut(resolution.n_springs, runs.case)
+        if finer.n_springs > resolution.n_springs and may_be_cut and (alike := alike_to(main)) < np.inf:
             finer = resolution._replace(alike=alike)
         if finer == resolution:
             return best
         resolution = finer
+
+
+def _serves_a_cut(n_springs: int, case: SlidingContact) -> bool:
+    """Whether the companion of fewest springs still has two for each piece of a row with one more cut."""
+    return max(3 * n_springs // 8, 16) >= 2 * (len(case.indenter.kinks) + 3)
 
 
 def _finer(main: Converged, missed: Missed) -> Resolution:

@@ -45,7 +45,8 @@ def slide(
         state that depends on its start, see `holding_band`.
     n_springs : int, optional
         Springs at x > 0, each for the pair at +x and -x. None chooses them, and the steps, so that `cof_error` is
-        within the accuracy where that is possible.
+        within the accuracy where that is possible; they may stand closer where a run shows that they slip back, so that
+        as many that are given can be less accurate.
     steps_per_period : int, optional
         Time steps of one period of the oscillation. None chooses them as friction needs them: to draw the motion of
         the body, ask for more, such as 1024.
