@@ -1,4 +1,4 @@
-"""Processes that help to compute a study: of one process, Python's lock lets one thread at a time go on.
+"""Processes that help to compute a study, as Python lets only one thread of a process go on at a time.
 
 A helper is this Python with `main` as its script, so that nothing of the user's own script is run again. It reads
 pickled frames from its standard input, at first the work, then ranges of units, and answers each on its standard
@@ -23,7 +23,7 @@ from mdr.studies.work import Work
 
 LENGTH = 8  #: bytes that tell how long a frame is
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-KNOWN = {"mdr", "numpy", "builtins", "functools"}  #: packages that are the same in every process
+KNOWN = {"mdr", "numpy", "builtins"}  #: packages that are the same in every process
 LOOK = 0.2  #: s between two looks whether the study has been ended
 
 
@@ -76,7 +76,7 @@ class Helper:
                 pipe.close()
 
 
-class _Modules(pickle.Unpickler):
+class _Packages(pickle.Unpickler):
     """Notes the packages that a frame needs."""
 
     def __init__(self, frame: bytes) -> None:
@@ -96,7 +96,7 @@ def helper_for(work: Work, ended: Event) -> Helper | None:
     if not sys.executable or getattr(sys, "frozen", False):
         return None
     try:
-        needs = _Modules(pickle.dumps(work))
+        needs = _Packages(pickle.dumps(work))
         needs.load()
         if not needs.packages <= KNOWN:
             return None
@@ -137,7 +137,7 @@ def main() -> None:
         work = receive(asked)
     except EOFError:
         return
-    except Exception as error:  # names of the user's script, that is not run here
+    except Exception as error:  # it cannot be read here
         send(answers, error)
         return
     send(answers, True)

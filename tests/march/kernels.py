@@ -47,7 +47,7 @@ class OnAMap(Stepper):
         self.v, self.tolerance, self.mean_F_z, self.n_periods = 0.0, tolerance, 1.0, 0
         drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
         self.scaled = SimpleNamespace(drive=drive, body=body, in_plane=None, ways=1)
-        self.ticker, self.room = Ticker("map"), self._new_room(1)
+        self.ticker, self.room = Ticker("map"), self.new_room(1)
         self.last = self.room[1]
 
 
@@ -56,4 +56,4 @@ def fixed_point(A, b, x, edge=np.inf, close=1e-10):
     n_x = x.size
     start = MarchState(x.copy(), np.full((1, n_x - 2), 1e300))  # no friction brings a state back
     how = Options(np.ones(n_x), np.eye(n_x)[:2], (), stable=False, memory=8, most=80, plain=3, at_once=100)
-    return Shooting(OnAMap(A, b, edge, 20 * close), start, how).shoot(x)
+    return Shooting(OnAMap(A, b, edge, 20 * close), start, how).shoot()

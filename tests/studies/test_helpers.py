@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import grids
@@ -14,7 +13,7 @@ import pytest
 
 import mdr
 from mdr.studies import engine
-from mdr.studies.helpers import Lost, helper_for
+from mdr.studies.helpers import Helper, Lost, helper_for
 from mdr.studies.points import compute
 
 DEPTHS = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 24).tolist()}
@@ -38,19 +37,31 @@ def test_a_helper_computes_the_same_bits():
     assert helper.process.returncode is not None
 
 
-def test_a_study_is_shared_with_a_helper(at_once, monkeypatch):
-    """Each of them computes some; the one here is slow."""
-    here, now = [], engine.compute
+@pytest.fixture
+def after_a_helper(monkeypatch):
+    """This process computes nothing before a helper was asked; the units that it computes then."""
+    asked, here, now, ask = threading.Event(), [], engine.compute, Helper.compute
 
-    def slowly(work, units, ended):
+    def compute_later(work, units, ended):
+        assert asked.wait(timeout=600)
         here.append(units)
-        time.sleep(0.3)
         return now(work, units, ended)
 
-    monkeypatch.setattr(engine, "compute", slowly)
+    def compute_there(self, units):
+        try:
+            return ask(self, units)
+        finally:
+            asked.set()
+
+    monkeypatch.setattr(engine, "compute", compute_later)
+    monkeypatch.setattr(Helper, "compute", compute_there)
+    return here
+
+
+def test_a_study_is_shared_with_a_helper(at_once, after_a_helper, monkeypatch):
     study = mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",))
     assert study.complete
-    assert 0 < len(here) < 24
+    assert len(after_a_helper) < 24
     monkeypatch.setattr(engine, "cores", lambda: 1)
     assert mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",)) == study
 
@@ -84,17 +95,14 @@ def test_a_helper_that_is_killed_is_lost():
     helper.close()
 
 
-def test_what_a_lost_helper_was_to_compute_is_computed_here(at_once, monkeypatch):
-    asked, now = [], engine.compute
-
+def test_what_a_lost_helper_was_to_compute_is_computed_here(at_once, monkeypatch, request):
     def lose(self, units):
-        asked.append(units)
         raise Lost("gone")
 
-    monkeypatch.setattr(engine, "compute", lambda work, units, ended: time.sleep(0.3) or now(work, units, ended))
-    monkeypatch.setattr("mdr.studies.helpers.Helper.compute", lose)
+    monkeypatch.setattr(Helper, "compute", lose)
+    here = request.getfixturevalue("after_a_helper")
     assert mdr.sweep(grids.RIGID, DEPTHS, quantities=("v_c",)).complete
-    assert asked
+    assert len(here) == 24
 
 
 def test_a_function_of_a_module_that_may_have_changed_is_computed_here():

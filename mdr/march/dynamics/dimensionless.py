@@ -180,14 +180,13 @@ class ScaledContact:
         row, rheology, width = loop.Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
         units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
         law = law_of(rheology.T, rheology.rho, rheology.theta)
-        rigid = body_of(0.0, 0.0, np.inf, law, drive.h, 0.0)
-        body, across = rigid, rigid
-        if not case.pull.is_rigid:
-            M, C, K = _body_groups(case, units.stiffness_x, across=False)
-            body = body_of(M, C, K, law, drive.h, _ringing(M, K, rheology))
-        if case.moves_across:
-            M, C, K = _body_groups(case, units.stiffness_x, across=True)
-            across = body_of(M, C, K, law, drive.h, _ringing(M, K, rheology))
+        body, across = (
+            body_of(M, C, K, law, drive.h, _ringing(M, K, rheology))
+            for M, C, K in (
+                _body_groups(case, units.stiffness_x, across) if moves else (0.0, 0.0, np.inf)
+                for across, moves in ((False, True), (True, case.moves_across))
+            )
+        )
         return cls(units, row, slow, n_alike, drive, rheology, law, body, across)
 
     @cached_property

@@ -113,12 +113,12 @@ def _numbers(parts: Any) -> list[float]:
     return [number for one in parts for number in (_numbers(one) if isinstance(one, tuple) else [float(one)])]
 
 
-def given(value, whether):
+def if_there(value, whether):
     """The value, or None where a contact lacks it."""
     return None if whether is None else value
 
 
-@overload(given)
+@overload(if_there)
 def _(value, whether):
     if isinstance(whether, NoneType):
         return lambda value, whether: None
@@ -156,17 +156,6 @@ def taken(block, at, size):
 
 
 @register_jitable
-def row_of(block):
-    """Gaps and shares of the springs, and the normal motion with its rate."""
-    n, n_t = int(block[N]), int(block[N_T])
-    gap, at = taken(block, HEAD, n)
-    w, at = taken(block, at, n)
-    z, at = taken(block, at, n_t + 1)
-    z_dot, at = taken(block, at, n_t + 1)
-    return gap, w, z, z_dot, at
-
-
-@register_jitable
 def body_at(block, at):
     """A body of a block."""
     b = block[at : at + OF_BODY]
@@ -193,7 +182,10 @@ def kernel_of(kind: Kind) -> Kernel:
 
     def kernel(block, v, x, s, n_steps, trace):
         n_t, J, K = int(block[N_T]), int(block[N_ARMS]), int(block[N_MODES])
-        gap, w, z, z_dot, at = row_of(block)
+        gap, at = taken(block, HEAD, int(block[N]))
+        w, at = taken(block, at, gap.size)
+        z, at = taken(block, at, n_t + 1)
+        z_dot, at = taken(block, at, n_t + 1)
         along, at = taken(block, at, n_t + 1)
         along_dot, at = taken(block, at, n_t + 1)
         across, across_dot = along, along_dot
@@ -210,8 +202,8 @@ def kernel_of(kind: Kind) -> Kernel:
         moment, at = taken(block, at, n_slip)
         end, at = taken(block, at, n_slip)
         flight, at = taken(block, at, n_slip if has_flight is not None else 0)
-        modes = given(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
-        law = Law(block[OF_T], modes, given(Arms(rho, rate), has_arms))
+        modes = if_there(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
+        law = Law(block[OF_T], modes, if_there(Arms(rho, rate), has_arms))
         motion = Motion(z, z_dot, v, vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane))
         state = as_numbers(x, in_plane)
         e = state[: s.size].reshape(s.shape)
@@ -222,10 +214,10 @@ def kernel_of(kind: Kind) -> Kernel:
             s,
             state[s.size :],
             body,
-            given(body_at(block, ACROSS), in_plane),
+            if_there(body_at(block, ACROSS), in_plane),
             Springs(gap, w),
-            given(FullSlipForce(area, moment, end), has_slip),
-            given(flight, has_flight),
+            if_there(FullSlipForce(area, moment, end), has_slip),
+            if_there(flight, has_flight),
             motion,
             law,
             tools,

@@ -41,10 +41,6 @@ class MarchState:
         """A state that can be marched on without a change of this one."""
         return MarchState(self.x.copy(), self.s.copy())
 
-    def with_vector(self, x: Array) -> MarchState:
-        """The state that a vector stands for; a copy."""
-        return MarchState(x.copy(), self.s.copy())
-
 
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)
 def within_friction(x, s):

@@ -63,7 +63,7 @@ class Stepper:
         self.mean_F_z = scaled.normal.mean
         self.n_periods = 0  # marched so far
         self.solved = True  # whether every step of the last march was solved for
-        self.room = self._new_room(1)
+        self.room = self.new_room(1)
         self.last = self.room[1]  # its last period, overwritten by the next march
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
 
@@ -118,7 +118,7 @@ class Stepper:
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
         n_steps = n_periods * self.scaled.drive.steps
-        flat, trace = self.room if n_periods == 1 else self._new_room(n_periods)
+        flat, trace = self.room if n_periods == 1 else self.new_room(n_periods)
         self.solved = self.kernel(self.block, self.v, state.x, state.s, n_steps, flat)
         self.count(n_periods)
         if n_periods > 1:
@@ -126,7 +126,7 @@ class Stepper:
                 last[:] = of[-len(last) :]
         return trace
 
-    def _new_room(self, n_periods: int) -> tuple[Array, loop.Trace]:
+    def new_room(self, n_periods: int) -> tuple[Array, loop.Trace]:
         """Flat room for a trace, and the trace."""
         flat, n_steps = new_trace(self.block, n_periods), n_periods * self.scaled.drive.steps
         return flat, trace_of(flat, n_steps, self.scaled.in_plane)  # type: ignore[no-untyped-call]

@@ -52,7 +52,7 @@ def search(
     for start in starts:
         shooting = Shooting(stepper, start, how)
         shooting.gain, shooting.motions = gain, motions
-        found = shooting.shoot(start.x)
+        found = shooting.shoot()
         motions = shooting.motions
         if found is not None:
             orbit = _orbit(found, start, shooting.motions)

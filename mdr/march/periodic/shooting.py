@@ -22,12 +22,12 @@ follows from the gain as known before. If the gain turns out to be larger, the s
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import MarchState
 from mdr.march.dynamics.stepper import Periods, Stepper
 from mdr.march.periodic.anderson import (
@@ -106,34 +106,35 @@ class Shooting:
     """A search for the periodic state of a march, from a state on."""
 
     def __init__(self, stepper: Stepper, start: MarchState, how: Options) -> None:
-        self.stepper, self.how, self.s = stepper, how, start.s
+        self.stepper, self.how, self.start, self.s = stepper, how, start.x, start.s
         self.search = Search.of(start.x.size, how.memory, how.plain, how.most)
-        self.flat = new_trace(stepper.block, 1)
-        self.trace = trace_of(self.flat, stepper.scaled.drive.steps, stepper.scaled.in_plane)  # type: ignore[no-untyped-call]
+        self.flat, self.trace = stepper.new_room(1)  # of Anderson's last period, that pushes must not overwrite
         #: bound on the distance from the periodic state over the change in a period, if it is known beforehand; what is
         #: measured depends on how close a state has come
         self.gain: float | None = None
         self.motions: SlowMotions | None = None  #: the slow ones about it, where they are known
+        self.found: Found | None = None
 
-    def shoot(self, x: Array) -> Found | None:
-        """Search from a state on: the periodic state, close enough or the best that there is."""
-        self.best: Found | None = None
-        try:
-            return self._shot(x)
-        except OutOfTime:
-            return self.best
+    def shoot(self) -> Found | None:
+        """The periodic state, close enough or the best that there is."""
+        with suppress(OutOfTime):
+            self._come_closer()
+        return self.found
 
-    def _shot(self, x: Array) -> Found | None:
-        stepper, search, found = self.stepper, self.search, None
+    def _come_closer(self) -> None:
+        """Search for ever smaller changes, until what is found is close enough, or comes no closer."""
+        stepper, search, x = self.stepper, self.search, self.start
         close = stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
         while True:
             self._begin(x, close)
             if not self._sought():
-                return found
+                return
             best = search.states[BEST].copy()
             last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
             if last and (slip := self._slip_for_good()):
-                return Found(best, stepper.periods_of(self.trace), slip, np.inf, 0.0, late=False, is_close=True)
+                period = stepper.periods_of(self.trace)
+                self.found = Found(best, period, slip, np.inf, 0.0, late=False, is_close=True)
+                return
             if search.changes[LEAST] > search.changes[ENOUGH]:
                 last = False
                 self._correct()
@@ -143,12 +144,12 @@ class Shooting:
                 gain = self._measured()
             if not near or gain is None:
                 if close <= CLOSE:
-                    return found
+                    return
                 x, close = best, CLOSE
                 continue
-            found = self.best = self._told(last, close, gain)
+            self.found = found = self._told(last, close, gain)
             if found.is_close or close <= CLOSEST or time_is_over():
-                return found
+                return
             x, close = search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
 
     def _begin(self, x: Array, close: float) -> None:
