@@ -54,7 +54,7 @@ SIGNATURES = {
     "PeriodicMotion": "omega, u_z0, cos=(), sin=()",
     "PeriodicMotion.from_acceleration": "t, a, *, u_z0, frequency=None",
     "displacement_of": "t, a, *, high_pass",
-    "read_record": "path, *, units=None, columns=None",
+    "read_record": "path, *, units=None, columns=None, skip=None, rate=None",
     "LoadOscillation": "F_z0, dF_z, omega, m_z=0.0",
     "ConstantDepth": "u_z0",
     "ConstantLoad": "F_z0",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import shlex
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
@@ -75,19 +76,40 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
-def add_reading(command: argparse.ArgumentParser) -> None:
-    """What the header of a CSV file calls its columns, and the units that it leaves out."""
+def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> None:
+    """What a CSV file does not say of itself; of one over time its rate too."""
     for name, value, what in (
-        ("columns", "head", "what the header calls a column, such as a_x=x; an empty head leaves it out"),
+        ("columns", "head", "what the header calls a column, or its number: a_x=x a_z=3; an empty head leaves it out"),
         ("units", "unit", "unit of a column whose header has none, such as t=ms a_x=g"),
     ):
         read = read_as(f"column={value}", _pair)
         command.add_argument(f"--{name}", metavar=f"column={value}", nargs="+", type=read, default=[], help=what)
+    skip = "lines above the header of the CSV file (default: it is found)"
+    command.add_argument("--skip", metavar="n", type=whole_number(0), help=skip)
+    if of_time:
+        rate, what = plain_number("Hz", "a frequency such as 1kHz"), "samples a second, in the place of a column t"
+        command.add_argument("--rate", metavar="1kHz", type=rate, help=what)
 
 
-def reading(args: argparse.Namespace) -> dict[str, dict[str, str]]:
-    """The same as arguments of what reads the file."""
-    return {"columns": dict(args.columns), "units": dict(args.units)}
+def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
+    """What a reader of the library makes of a CSV file. A refusal names the options in the place of its arguments."""
+    given = {"columns": dict(args.columns), "units": dict(args.units), "skip": args.skip}
+    given |= {"rate": args.rate} if hasattr(args, "rate") else {}
+    try:
+        return read(path, **given)
+    except ValueError as refusal:
+        raise WrongInput(in_options(str(refusal))) from None
+
+
+def in_options(message: str) -> str:
+    """A message in which arguments of a reader, as columns={"t": 1}, are options, --columns t=1."""
+
+    def option(given: re.Match[str]) -> str:
+        pairs = re.findall(r'"([^"]*)": (?:"([^"]*)"|([^,"]+))', given[2])
+        return " ".join([f"--{given[1]}", *(shlex.quote(f"{name}={word or bare}") for name, word, bare in pairs)])
+
+    message = re.sub(r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?", option, message)
+    return re.sub(r"\b(columns|units|rate)=(?=[ ,])", r"--\1", message)
 
 
 def _pair(text: str) -> tuple[str, str]:

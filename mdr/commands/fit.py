@@ -7,7 +7,7 @@ from typing import Any
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, reading
+from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file
 from mdr.commands.output import answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.fit import Fit
@@ -35,8 +35,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
 def fit(args: argparse.Namespace, asked: Said) -> int:
     """Fit, write and print."""
     make_folder(args)
+    data = read_file(mdr.read_friction_data, args.data, args)
     with refusals():
-        data = mdr.read_friction_data(args.data, **reading(args))
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
         found = mdr.fit(asked.case, data, args.free, **knobs)
     write_found(args, found.plot, mdr.write_case(found.case), str(found))

@@ -8,7 +8,7 @@ from typing import Any
 
 import mdr
 from mdr.case.displacement import inner_part
-from mdr.commands.arguments import add_reading, path_of, read_as, reading, whole_number
+from mdr.commands.arguments import add_reading, path_of, read_as, read_file, whole_number
 from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.normal.springs import MIN_SPRINGS
@@ -30,7 +30,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--high-pass", metavar="5Hz", type=frequency, help=above)
     size = whole_number(2 * MIN_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: 256)")
-    add_reading(command)
+    add_reading(command, of_time=True)
     add_output(command, "record.csv", "record.png", "record.svg")
 
 
@@ -38,12 +38,12 @@ def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
     case = mdr.read_case(args.case)
     make_folder(args)
+    recorded = read_file(mdr.read_record, args.motion, args)
     try:
-        recorded = mdr.read_record(args.motion, **reading(args))
         motion = with_displacements(recorded, args.high_pass, case)
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
-        raise WrongInput(f"{args.motion}: {str(fault).removeprefix(f'{args.motion}: ')}") from None
+        raise WrongInput(f"{args.motion}: {fault}") from None
     write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "mean_F_z", "n_springs")
     spent = found.energy_balance

@@ -13,12 +13,16 @@ from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals
 from mdr.files.toml_text import parse_toml, read_text, tried
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Table, Words, warn_of_size
+from mdr.tools.csv_table import Reading, Table, warn_of_size
 from mdr.tools.messages import short
 
 #: moduli in Pa, shear moduli in Pa, or shares of the instantaneous modulus
 MODULI = (
-    Column("g_j", ("g_i", "g", "relative modulus", "E_j/E_0", "E_i/E_0", "G_j/G_0", "G_i/G_0"), needed=False),
+    Column(
+        "g_j",
+        ("g_i", "g", "relative modulus", "relative moduli", "E_j/E_0", "E_i/E_0", "G_j/G_0", "G_i/G_0"),
+        needed=False,
+    ),
     Column("E_j", ("E_i", "modulus"), "Pa", needed=False, bare=True),
     Column("G_j", ("G_i", "shear modulus"), "Pa", needed=False, bare=True),
 )
@@ -29,28 +33,26 @@ ARMS = (
 )
 
 
-def from_table(
-    path: str | PathLike[str], nu: float | None, E_0: float | None, units: Words, columns: Words
-) -> dict[str, Any]:
+def from_table(path: str | PathLike[str], nu: float | None, E_0: float | None, reading: Reading) -> dict[str, Any]:
     """The fields of a Prony in a file."""
     name = fsdecode(path)
     if E_0 is not None:
         E_0 = positive("E_0", E_0, "instantaneous modulus in Pa")
     if name.lower().endswith(".toml"):
-        if units or columns:
-            raise fault(name, "units and columns are those of a CSV table")
+        if any(reading):
+            raise fault(name, "units, columns and skip are those of a CSV table")
         return _from_toml(read_text(path), name, {"nu": nu, "E_0": E_0})
     if not name.lower().endswith(".csv"):
         raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(read_table(path, ARMS, units, columns), nu, E_0), "nu": nu}
+    return {**_from_csv(read_table(path, ARMS, reading), nu, E_0), "nu": nu}
 
 
 def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     kinds = [one.name for one in MODULI if one.name in table.values]
     if not kinds:
-        raise table.lacks("no E_j", "E_j [MPa], tau_j [s]")
+        raise table.lacks("no E_j", "E_j [MPa], tau_j [s]", "E_j")
     if len(kinds) > 1:
         raise table.fault(f"{' and '.join(kinds)}: give one")
     (kind,), tau, E = kinds, table.values["tau_j"], table.values[kinds[0]]

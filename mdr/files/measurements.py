@@ -1,7 +1,7 @@
 """Measurements in CSV files: points of a profile, force over depth, dynamic moduli, recorded motion.
 
 Each file has a header that names its columns and their units (`mdr.tools.csv_table`); `units` gives those that a header
-lacks, `columns` what it calls a column. Friction over velocity is read in `mdr.friction.friction_data`.
+lacks, `columns` what it calls a column, or its number. Friction over velocity is read in `mdr.friction.friction_data`.
 """
 
 from __future__ import annotations
@@ -14,30 +14,33 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.files.toml_text import read_text
+from mdr.files.toml_text import read_bytes
 from mdr.materials.base import poisson_ratio
 from mdr.materials.prony_fit import ONE, TOLD, twice
 from mdr.tools.arrays import EPS, SAME, Array
-from mdr.tools.checks import finite
+from mdr.tools.checks import finite, positive
 from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Table, Words, table_of
+from mdr.tools.csv_layout import decoded
+from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
 from mdr.tools.notation import GRAVITY, ZEROS
 from mdr.tools.warned import warn_outside
 
 LIKELY_MODULUS = (200.0, 2e12)  #: [Pa], from soft gels to beyond diamond
 FASTEST = (0.0, 1e7)  #: acceleration [m/s²], of 100 µm at 50 kHz
+UNEVEN = 0.1  #: share of a step that times may be off even ones
 WITHIN = 0.5  #: [K], that readings at one temperature may be off it
+MOST_BYTES = 2**27  #: of a table
 PROFILE = (
-    Column("r", ("x", "radius", "position", "distance"), "m", likely=(1e-10, 1.0)),
-    Column("f", ("h", "z", "height", "profile"), "m", likely=(0.0, 1.0)),
+    Column("r", ("x", "radius", "position", "distance", "lateral", "X position", "length"), "m", likely=(1e-10, 1.0)),
+    Column("f", ("h", "z", "height", "profile", "total profile", "raw height"), "m", likely=(0.0, 1.0)),
 )
 FORCE = (
-    Column("d", ("depth", "indentation", "displacement"), "m", likely=(1e-12, 0.1)),
-    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", likely=(0.0, 1e6)),
+    Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.1)),
+    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6)),
 )
-TAN_DELTA = ("tan(delta)", "tan δ", "tan(δ)", "loss tangent", "loss factor", "damping")
+TAN_DELTA = ("tan(delta)", "tan δ", "tan(δ)", "tan d", "loss tangent", "loss factor", "damping", "damping factor")
 MODULI = (
-    Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s"),
+    Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s", lone=True),
     Column("storage", ("E'", "storage modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("loss", ("E''", "loss modulus"), "Pa", needed=False),
     Column("tan_delta", TAN_DELTA, needed=False, likely=(0.0, 5.0)),
@@ -45,15 +48,24 @@ MODULI = (
     Column("G''", ("shear loss modulus",), "Pa", needed=False),
     Column("T", ("temperature", "temp"), "K", needed=False, likely=(100.0, 2000.0)),
 )
+TIME = Column("t", ("time", "elapsed time", "timestamp"), "s", lone=True, instead="rate=, in Hz, for even steps")
+
+
+def _acceleration(axis: str, *names: str) -> Column:
+    """A component; its letter alone is a name too, which a unit tells from a position."""
+    words = [f"{word} {axis}" for word in ("acceleration", "linear acceleration", "accelerometer", "accel", "acc")]
+    return Column(f"a_{axis}", (axis, *words, *names), "m/s²", needed=False, lone=axis == "z", likely=FASTEST)
+
+
 MOTION = (
-    Column("t", ("time",), "s"),
+    TIME,
     Column("u_x", ("x",), "m", needed=False),
     Column("u_y", ("y",), "m", needed=False),
     Column("u_z", ("z", "u", "depth", "displacement"), "m", needed=False, likely=(0.0, 0.01)),
     Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
-    Column("a_x", (), "m/s²", needed=False, likely=FASTEST),
-    Column("a_y", (), "m/s²", needed=False, likely=FASTEST),
-    Column("a_z", ("a", "acceleration"), "m/s²", needed=False, likely=FASTEST),
+    _acceleration("x"),
+    _acceleration("y"),
+    _acceleration("z", "a", "acceleration", "accel", "acc"),
 )
 
 
@@ -65,11 +77,10 @@ class DynamicModuli(NamedTuple):
     loss: Array  #: loss modulus E'' [Pa]
 
 
-def read_table(
-    path: str | PathLike[str], columns: Sequence[Column], units: Words = None, called: Words = None
-) -> Table:
+def read_table(path: str | PathLike[str], columns: Sequence[Column], reading: Reading) -> Table:
     """The columns in a CSV file."""
-    return table_of(read_text(path), fsdecode(path), columns, units=units, called=called)
+    text, said = decoded(read_bytes(path, MOST_BYTES, "table"))
+    return table_of(text, fsdecode(path), columns, reading, said)
 
 
 def read_moduli(
@@ -77,8 +88,9 @@ def read_moduli(
     *,
     nu: float | None = None,
     temperature: float | None = None,
-    units: Words = None,
-    columns: Words = None,
+    units: Units = None,
+    columns: Columns = None,
+    skip: int | None = None,
 ) -> DynamicModuli:
     r"""Dynamic moduli [Pa] over frequency from a CSV file, for `Prony.fit`.
 
@@ -93,10 +105,12 @@ def read_moduli(
         Temperature [°C] whose rows are taken, those within 0.5 K, of a file with several in a column T.
     units : dict of str, optional
         Units of columns whose header has none, such as {"omega": "Hz", "storage": "MPa"}.
-    columns : dict of str, optional
-        What the header calls a column, such as {"storage": "Speichermodul"}; the columns are omega, storage, loss,
-        tan_delta, G', G'' and T. An empty name leaves a column out: {"T": ""} of a master curve, whose frequencies are
-        shifted to one temperature.
+    columns : dict of str or int, optional
+        What the header calls a column, such as {"storage": "Speichermodul"}, or its number, from 1; the columns are
+        omega, storage, loss, tan_delta, G', G'' and T. An empty name leaves a column out: {"T": ""} of a master curve,
+        whose frequencies are shifted to one temperature.
+    skip : int, optional
+        Lines above the header. None finds it.
 
     Returns
     -------
@@ -118,7 +132,7 @@ def read_moduli(
     [3000000. 4000000.] [300000. 800000.]
     >>> rubber = mdr.Prony.fit(*moduli, nu=0.5)
     """
-    table = read_table(path, MODULI, units, columns)
+    table = read_table(path, MODULI, Reading(units, columns, skip))
     found = table.values
     of_shear, stretch = "storage" not in found and "G'" in found, 1.0
     if of_shear:
@@ -127,9 +141,9 @@ def read_moduli(
         stretch = 2 * (1 + poisson_ratio("nu", nu))
     storage, loss = (found.get(name) for name in (("G'", "G''") if of_shear else ("storage", "loss")))
     if storage is None:
-        raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa]")
+        raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa]", "storage", "loss")
     if loss is None and "tan_delta" not in found:
-        raise table.lacks("neither E'' nor tan delta", "f [Hz], E' [MPa], tan delta")
+        raise table.lacks("neither E'' nor tan delta", "f [Hz], E' [MPa], tan delta", "loss")
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
         _require_rows(table, values > 0, f"{name} must be positive")
     if loss is not None and "tan_delta" in found:
@@ -150,7 +164,7 @@ def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]
         temperature = finite("temperature", temperature, "in °C")
     if "T" not in table.values:
         if temperature is not None:
-            raise table.lacks("no temperature", "f [Hz], T [degC], E' [MPa], E'' [MPa]")
+            raise table.lacks("no temperature", "f [Hz], T [degC], E' [MPa], E'' [MPa]", "T")
         return np.arange(len(table.lines))
     _require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
     T = table.values["T"] - ZEROS["degC"]
@@ -196,7 +210,14 @@ def _look_for_repeats(table: Table, taken: NDArray[np.intp], omega: Array, modul
         raise table.fault(f"{what}: if of several temperatures, {column}; else give one, or the mean")
 
 
-def read_record(path: str | PathLike[str], *, units: Words = None, columns: Words = None) -> dict[str, Array]:
+def read_record(
+    path: str | PathLike[str],
+    *,
+    units: Units = None,
+    columns: Columns = None,
+    skip: int | None = None,
+    rate: float | None = None,
+) -> dict[str, Array]:
     r"""A recorded motion or acceleration in SI, from a CSV file.
 
     Parameters
@@ -206,8 +227,12 @@ def read_record(path: str | PathLike[str], *, units: Words = None, columns: Word
         a_z (or a, acceleration), with their units: `t [ms], a [g]`.
     units : dict of str, optional
         Units of columns whose header has none, such as {"t": "s", "a_z": "m/s²"}.
-    columns : dict of str, optional
-        What the header calls a column, such as {"a_z": "Kanal 1"}.
+    columns : dict of str or int, optional
+        What the header calls a column, such as {"a_z": "Kanal 1"}, or its number, from 1.
+    skip : int, optional
+        Lines above the header. None finds it.
+    rate : float, optional
+        Samples a second [Hz], in the place of t: times are even, from 0.
 
     Returns
     -------
@@ -218,7 +243,12 @@ def read_record(path: str | PathLike[str], *, units: Words = None, columns: Word
     Raises
     ------
     ValueError
-        With file and line of what is wrong.
+        With all that is wrong, and what to give so that the file is read as it is.
+
+    Warns
+    -----
+    PlausibilityWarning
+        Of a guess: even times for rounded ones, a column for its unit alone, letters that are not UTF-8.
 
     See Also
     --------
@@ -234,14 +264,35 @@ def read_record(path: str | PathLike[str], *, units: Words = None, columns: Word
     >>> print(record["t"], record["a_z"])
     [0.     0.0005] [  9.80665 -19.6133 ]
     """
-    table = read_table(path, MOTION, units, columns)
-    if len(table.values) < 2:
-        way_out = "write t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
-        raise table.fault(f"the header names a time alone; {way_out}{table.hint}; it is {table.header}")
-    if np.any(falls := np.diff(table.values["t"]) < 0):
+    wanted = MOTION if rate is None else tuple(one for one in MOTION if one is not TIME)
+    step = None if rate is None else 1 / positive("rate", rate, "in Hz")
+    table = read_table(path, wanted, Reading(units, columns, skip))
+    record = table.values
+    if not record.keys() - {"t"}:
+        raise table.lacks("a time alone", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]", "a_x", "a_y", "a_z")
+    if step is not None:
+        record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}
+    elif np.any(falls := np.diff(record["t"]) < 0):
         raise table.fault(f"t falls in line {table.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
-    _doubt_units(table.values)
-    return table.values
+    record["t"] = _evened(record["t"], table.source)
+    _doubt_units(record)
+    return record
+
+
+def _evened(t: Array, source: str) -> Array:
+    """Even times for those that are even but for rounding to a decimal place, which is told; else the same."""
+    n = np.arange(t.size)
+    if t.size < 5:  # too few to tell rounding from jitter
+        return t
+    slope, start = np.polyfit(n, t - t[0], 1)
+    off = t - t[0] - start - slope * n
+    places = next((k for k in range(10) if np.allclose(t * 10.0**k, np.round(t * 10.0**k), rtol=0, atol=1e-6)), None)
+    # a line through rounded values is off by half a place, and by what n of them leave open
+    is_rounded = places is not None and np.ptp(off) <= 10.0**-places * (1 + t.size**-0.5)
+    if not is_rounded or np.max(np.abs(off)) <= UNEVEN * slope:
+        return t
+    warn_outside(f"{source}: t is rounded to {10.0**-places:g} s: even steps of {slope:.6g} s are taken")  # type: ignore[operator]
+    return np.asarray(t[0] + slope * n)
 
 
 def _doubt_units(record: Mapping[str, Array]) -> None:
@@ -259,12 +310,12 @@ def _doubt_units(record: Mapping[str, Array]) -> None:
 
 
 def profile_points(
-    path: str | PathLike[str], units: Words, columns: Words, apex: float, side: str, flip: bool
+    path: str | PathLike[str], reading: Reading, apex: float, side: str, flip: bool
 ) -> tuple[Array, Array]:
     """Radii from 0 and heights [m] of one side of a scan across the tip, or of both laid upon one another."""
     if side not in ("both", "left", "right"):
         raise ValueError(f'side must be "both", "left" or "right", got {side!r}')
-    table = read_table(path, PROFILE, units, columns)
+    table = read_table(path, PROFILE, reading)
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
     tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
     _refuse_repeated(table, "r", x, tiny)
@@ -288,9 +339,9 @@ def profile_points(
     return r, f
 
 
-def force_points(path: str | PathLike[str], units: Words, columns: Words, touch: float | None) -> tuple[Array, Array]:
+def force_points(path: str | PathLike[str], reading: Reading, touch: float | None) -> tuple[Array, Array]:
     """Depths [m] from the first touch, and forces [N] at them, both from 0."""
-    table = read_table(path, FORCE, units, columns)
+    table = read_table(path, FORCE, reading)
     d, F = table.values["d"], table.values["F"]
     if np.all(F <= 0):
         raise table.fault("no force is above zero; compression must be positive, turn the sign of F")

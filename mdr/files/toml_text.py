@@ -60,27 +60,33 @@ def told(where: str) -> Iterator[None]:
         raise CaseFileError.of(where + fault for fault in refusal.faults) from None
 
 
-def read_text(path: str | PathLike[str]) -> str:
-    """The text of a file, or of standard input. Raises CaseFileError where there is none."""
+def read_bytes(path: str | PathLike[str], most: int, kind: str) -> bytes:
+    """What a file of a kind, or standard input, holds. Raises CaseFileError where it cannot be read, or holds more."""
     with told(f"{fsdecode(path)}: "):
         try:
             if isinstance(path, StandardInput):
                 if sys.stdin is None:
                     raise OSError("it is closed")
-                data = sys.stdin.buffer.read(MAX_BYTES + 1)
+                data = sys.stdin.buffer.read(most + 1)
             else:
                 with open(path, "rb") as file:
-                    data = file.read(MAX_BYTES + 1)
+                    data = file.read(most + 1)
         except (OSError, ValueError) as fault:
             raise CaseFileError(f"cannot be read: {getattr(fault, 'strerror', None) or fault}") from None
-        if len(data) > MAX_BYTES:
-            raise CaseFileError(f"is larger than {MAX_BYTES // 2**20} MiB: no case file")
-        try:
-            return data.decode("utf-8-sig")
-        except UnicodeDecodeError as fault:
-            line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
-            what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
-            raise CaseFileError(what) from None
+        if len(data) > most:
+            raise CaseFileError(f"is larger than {most // 2**20} MiB: no {kind}")
+        return data
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file, or of standard input. Raises CaseFileError where there is none."""
+    data = read_bytes(path, MAX_BYTES, "case file")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        line, byte = data.count(b"\n", 0, fault.start) + 1, data[fault.start]
+        what = f"line {line} is not UTF-8 text (byte 0x{byte:02x}); save the file as UTF-8"
+        raise CaseFileError(f"{fsdecode(path)}: {what}") from None
 
 
 def tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, list[str]]:

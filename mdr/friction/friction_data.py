@@ -4,14 +4,12 @@
     0.5, 0.31, 0.01
     1.0, 0.35, 0.01
 
-The columns may stand in any order, beside others; commas, semicolons and tabs separate them; lines that begin with #
-are left out. What `CofCurve.to_csv` writes is read too. A contact that is shaken in the plane may be pulled either way:
+What `CofCurve.to_csv` writes is read too. A contact that is shaken in the plane may be pulled either way:
 velocities the other way are negative.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 
@@ -22,14 +20,17 @@ from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_header import Column
+from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 from mdr.tools.warned import warn_outside
 
 COLUMNS = (
-    Column("v_0", ("v", "velocity", "speed"), "m/s", likely=(0.0, 100.0)),
-    Column("cof", ("mu", "friction", "coefficient of friction", "friction coefficient"), "-"),
-    Column("error", ("cof_error", "sigma", "std", "uncertainty"), "-", needed=False),
+    Column(
+        "v_0", ("v", "velocity", "speed", "sliding velocity", "sliding speed"), "m/s", lone=True, likely=(0.0, 100.0)
+    ),
+    Column("cof", ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"), "-"),
+    Column("error", ("cof_error", "sigma", "std", "std dev", "standard deviation", "uncertainty"), "-", needed=False),
 )
 
 
@@ -72,7 +73,7 @@ class FrictionData(Summarised, ArrayRecord):
 
 
 def read_friction_data(
-    path: str | PathLike[str], *, units: Mapping[str, str] | None = None, columns: Mapping[str, str] | None = None
+    path: str | PathLike[str], *, units: Units = None, columns: Columns = None, skip: int | None = None
 ) -> FrictionData:
     r"""Measured friction [-] over velocity from a CSV file.
 
@@ -83,8 +84,10 @@ def read_friction_data(
         optional.
     units : dict of str, optional
         Unit of the velocity, where the header has none: {"v_0": "mm/s"}.
-    columns : dict of str, optional
-        What the header calls a column: {"cof": "Reibwert"}.
+    columns : dict of str or int, optional
+        What the header calls a column, {"cof": "Reibwert"}, or its number, from 1.
+    skip : int, optional
+        Lines above the header. None finds it.
 
     Returns
     -------
@@ -104,7 +107,7 @@ def read_friction_data(
     >>> mdr.read_friction_data("measured.csv").v_0
     array([0.0005, 0.001 ])
     """
-    table = read_table(path, COLUMNS, units, columns)
+    table = read_table(path, COLUMNS, Reading(units, columns, skip))
     try:
         return FrictionData(**table.values)
     except ValueError as refusal:

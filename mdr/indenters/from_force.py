@@ -5,7 +5,6 @@ k_zc = dF_N/dd = 2E*a holds for any shape, so that F(d) tells the shape (Popov &
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike, fsdecode
@@ -23,6 +22,7 @@ from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_as
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite, finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
+from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
@@ -92,8 +92,9 @@ class FromForce(Indenter):
         path: str | PathLike[str],
         *,
         E_star: float,
-        units: Mapping[str, str] | None = None,
-        columns: Mapping[str, str] | None = None,
+        units: Units = None,
+        columns: Columns = None,
+        skip: int | None = None,
         touch: float | None = None,
         tip: str = "any",
         smoothing: float = 0.0,
@@ -109,8 +110,10 @@ class FromForce(Indenter):
             Contact modulus of the body that was pressed [Pa].
         units : dict of str, optional
             Units of columns whose header has none: {"d": "um", "F": "mN"}.
-        columns : dict of str, optional
-            What the header calls a column: {"d": "Weg", "F": "Kraft"}.
+        columns : dict of str or int, optional
+            What the header calls a column, {"d": "Weg", "F": "Kraft"}, or its number, from 1.
+        skip : int, optional
+            Lines above the header. None finds it.
         touch : float, optional
             Reading of the depth at first touch [m], from which depths count; what was measured before is left out.
             None: the readings are depths.
@@ -140,7 +143,7 @@ class FromForce(Indenter):
         """
         from mdr.files.measurements import force_points
 
-        d, F = force_points(path, units, columns, None if touch is None else finite("touch", touch))
+        d, F = force_points(path, Reading(units, columns, skip), None if touch is None else finite("touch", touch))
         try:
             return cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -18,6 +18,7 @@ from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive
 from mdr.tools.csv_header import fault
+from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
@@ -116,8 +117,9 @@ class SampledProfile(Indenter):
         cls,
         path: str | PathLike[str],
         *,
-        units: Mapping[str, str] | None = None,
-        columns: Mapping[str, str] | None = None,
+        units: Units = None,
+        columns: Columns = None,
+        skip: int | None = None,
         apex: float = 0.0,
         side: str = "both",
         flip: bool = False,
@@ -133,8 +135,10 @@ class SampledProfile(Indenter):
             The file. Its header names radius and height with their units: `r [um], f [nm]`. Rows in any order.
         units : dict of str, optional
             Units of columns whose header has none: {"r": "um", "f": "nm"}.
-        columns : dict of str, optional
-            What the header calls a column: {"r": "Position", "f": "Z"}.
+        columns : dict of str or int, optional
+            What the header calls a column, {"r": "Position", "f": "Z"}, or its number, from 1.
+        skip : int, optional
+            Lines above the header. None finds it.
         apex : float
             Where the tip is along the scan [m]; one of the points.
         side : str
@@ -170,7 +174,7 @@ class SampledProfile(Indenter):
         """
         from mdr.files.measurements import profile_points
 
-        r, f = profile_points(path, units, columns, finite("apex", apex), side, flip)
+        r, f = profile_points(path, Reading(units, columns, skip), finite("apex", apex), side, flip)
         nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}
         named = tuple(to if abs(to - b) <= SAME * r[-1] else b for b, to in nearest.items())
         try:

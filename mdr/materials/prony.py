@@ -13,7 +13,6 @@ nu Poisson's ratio [-], constant in time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike, fsdecode
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -23,6 +22,7 @@ from numpy.typing import ArrayLike
 from mdr.materials.base import POISSON, OneBody, poisson_ratio
 from mdr.tools.checks import not_negative, positive
 from mdr.tools.csv_header import fault
+from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
 
 Arms = tuple[tuple[float, float], ...]
@@ -216,8 +216,9 @@ class Prony(_WithArms):
         *,
         nu: float | None = None,
         E_0: float | None = None,
-        units: Mapping[str, str] | None = None,
-        columns: Mapping[str, str] | None = None,
+        units: Units = None,
+        columns: Columns = None,
+        skip: int | None = None,
     ) -> Prony:
         r"""The body of a table of arms (E_j [Pa], tau_j [s]) in a file, .csv or .toml.
 
@@ -232,8 +233,12 @@ class Prony(_WithArms):
         E_0 : float, optional
             Instantaneous Young's modulus [Pa] of relative moduli, g_j = E_j/E_0, as finite-element programs write
             them. What their sum lacks of 1 is that of E_inf.
-        units, columns : dict of str, optional
-            Units of columns of a CSV file whose header has none, {"E_j": "MPa"}, and what it calls a column.
+        units : dict of str, optional
+            Units of columns of a CSV file whose header has none: {"E_j": "MPa"}.
+        columns : dict of str or int, optional
+            What the header calls a column, {"E_j": "modulus"}, or its number, from 1.
+        skip : int, optional
+            Lines above the header. None finds it.
 
         Returns
         -------
@@ -257,7 +262,7 @@ class Prony(_WithArms):
 
         if nu is not None:
             nu = poisson_ratio("nu", nu)
-        fields = from_table(path, nu, E_0, units, columns)
+        fields = from_table(path, nu, E_0, Reading(units, columns, skip))
         try:
             return cls(**fields)
         except (TypeError, ValueError) as refusal:

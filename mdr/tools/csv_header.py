@@ -1,9 +1,11 @@
 """The header of a table: which column stands where and in which unit, or what to write instead.
 
-What `columns=` names is taken first. Of the other names the best spelling is taken: exact; exact but for spaces,
-hyphens and underscores; a word in letters of another case; a single letter of another case, and this with a unit that
-measures the same (`T [C]` is no time t, `U [V]` no displacement u). What nobody names is left alone: where `columns=`
-says that the letter of one quantity is another, as x of an acceleration, other letters are none that may be left out.
+What `columns=` names, or numbers, is taken first. Of the other cells those in a unit of the column come first, then
+those without a unit, then those in another; among these the best spelling: exact; exact but for spaces, points,
+hyphens and underscores; a word in letters of another case; a single letter of another case, if its unit fits (`T [C]`
+is no time t, `U [V]` no displacement u). A column that is still missing is the only cell in a unit of it, if there is
+one; this guess is told. What nobody names is left alone: where `columns=` says that the letter of one quantity is
+another, as x of an acceleration, other letters are none that may be left out.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from itertools import product, zip_longest
 from typing import NamedTuple
 
 from mdr.tools.messages import one_line, short
@@ -20,6 +23,7 @@ _HEAD = re.compile(
     r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))?"
 )
 SPELLINGS = 4  #: how well a name fits, best first
+FITS, BARE, MISFITS = range(3)  #: a unit of the column, none where one is needed, another
 
 
 class Column(NamedTuple):
@@ -30,6 +34,8 @@ class Column(NamedTuple):
     unit: str = "-"  #: of the library, a key of `UNITS`
     needed: bool = True
     bare: bool = False  #: whether a header without a unit means that of the library
+    lone: bool = False  #: whether the only cell in a unit of it is it
+    instead: str = ""  #: what may be given in its place
     empty: float | None = None  #: what an empty cell, or inf, stands for; None refuses them
     likely: tuple[float, float] = (0.0, math.inf)  #: range of the greatest absolute value; outside a unit may be wrong
 
@@ -58,6 +64,7 @@ class Head(NamedTuple):
     name: str
     unit: str
     whole: str
+    below: str = ""  #: unit in a row of its own
 
     @classmethod
     def of(cls, cell: str) -> Head:
@@ -78,162 +85,179 @@ class Head(NamedTuple):
         """The unit behind one of these names; brackets that belong to the name are none."""
         name, whole = (_spelling(one, names) for one in (self.name, self.whole))
         is_name = whole is not None and (name is None or whole < name)
-        return self.unit if column.measured_in(self.unit) or not is_name else ""
+        own = self.unit if column.measured_in(self.unit) or not is_name else ""
+        return own or self.below
 
 
 class Header:
-    """The cells of a header, and the columns that are looked for in it."""
+    """The cells of a header, the columns that are looked for in it, and what is wrong."""
 
     def __init__(
-        self, cells: Sequence[str], columns: Sequence[Column], units: Mapping[str, str], called: Mapping[str, str]
+        self,
+        cells: Sequence[str],
+        below: Sequence[str],
+        columns: Sequence[Column],
+        units: Mapping[str, str],
+        called: Mapping[str, str | int],
     ) -> None:
         self.columns, self.units, self.called = columns, units, called
-        self.heads = [Head.of(cell) for cell in cells]
+        self.heads = [Head.of(cell)._replace(below=unit) for cell, unit in zip_longest(cells, below, fillvalue="")]
         others = [(own, one) for name, own in called.items() for one in columns if one.name != name]
         self.letters_differ = any(own in one.names for own, one in others)
-        self.text = short(", ".join(head.whole for head in self.heads), 120)
+        self.at: dict[str, int] = {}  #: cell of each column that was found
+        self.said: list[str] = []  #: guesses
+        self.faults: list[str] = []
+        self._take_called()
+        self._take_named()
+        self._take_lone()
+        self.places = [Place(one, self.at[one.name], self._unit(one)) for one in columns if one.name in self.at]
+        self.faults += [what for place in self.places if (what := self._fault(place.column))]
+        self.absent = [
+            one for one in columns if one.name not in self.at and (one.needed or one.name in {*units, *called})
+        ]
+        self.absent = [one for one in self.absent if called.get(one.name) != ""]
+        if unnamed := [one for one in self.absent if one.name not in called]:
+            self.faults.insert(0, self._lacks(unnamed))
 
-    def places(self) -> list[Place]:
-        """Where each column stands. Raises ValueError with all that is wrong."""
-        at = self._named()
-        for spelling in range(SPELLINGS):
-            for column in self.columns:
-                if column.name not in at and column.name not in self.called:
-                    best = self._best(self._spelt(column, spelling, set(at.values())), column)
-                    at |= {column.name: best} if best is not None else {}
-        absent = [one for one in self.columns if one.needed and one.name not in at]
-        if absent:
-            raise ValueError(self._absent(absent, set(at.values())))
-        if unused := [one for one in self.columns if one.name in self.units and one.name not in at]:
-            names, pairs = ", ".join(one.name for one in unused), ", ".join(map(self._called_so, unused))
-            raise ValueError(
-                f"units: the header names no {names}: {self.text}; what it calls them, columns={{{pairs}}}"
-            )
-        found = [Place(one, at[one.name], self._unit(one, at[one.name])) for one in self.columns if one.name in at]
-        if faults := [what for one in found if (what := self._fault(*one[:2]))]:
-            bare = [one.column for one in found if self._lacks_unit(*one[:2])]
-            pairs = ", ".join(f'"{one.name}": "{listed(one.unit).partition(",")[0]}"' for one in bare)
-            raise ValueError("; ".join([*faults, *([f"or units={{{pairs}}}"] if bare else [])]))
-        return found
-
-    def left(self, places: Sequence[Place]) -> str:
-        """A hint to cells that nobody claims and whose unit is that of a column; empty where there is none."""
-        free = [head for i, head in enumerate(self.heads) if i not in {one.at for one in places}]
-        pairs = [(column, head) for head in free if (column := self._meant(head, {one.column for one in places}))]
-        named = {column.name: head.whole for column, head in reversed(pairs)}
-        told = ", ".join(f'"{name}": "{short(whole)}"' for name, whole in reversed(named.items()))
-        return f"; or say what the header calls it, columns={{{told}}}" if told else ""
+    def way_out(self, more: Sequence[Column] = ()) -> str:
+        """What to say beside the name of the file, so that it is read as it is; of `more` columns too."""
+        if all(place.column.needed for place in self.places):
+            more = [*more, *(one for one in self.columns if one.lone and not one.needed)]
+        absent = list(dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)]))
+        free = [i for i in range(len(self.heads)) if i not in self.at.values()]
+        columns = {name: own for name, own in self.called.items() if name in self.at or own == ""}
+        bare = [one for one in self.columns if one.name in self.at and self._lacks_unit(one)]
+        blank = [i for i in free if not self.heads[i].unit]
+        for one in absent:
+            # a cell in its unit, of several that with its letter; or one of as many without a unit as there are columns
+            fitting = [i for i in free if self._measures(i, one)]
+            fitting.sort(key=lambda i: one.name[-1] not in re.split(r"[\W_]+", self.heads[i].name.casefold()))
+            at = next(iter(fitting or ([i for i in blank if i in free] if len(blank) == len(absent) else [])), None)
+            columns[one.name] = "..." if at is None else self.heads[at].name or at + 1
+            free = [i for i in free if i != at]
+            bare += [one] if not fitting and not self._is_bare(one) and one.name not in self.units else []
+        units = {**self.units, **{one.name: one.example.partition("[")[2].rstrip("]") for one in bare}}
+        if not absent and not bare:
+            return ""
+        return ", ".join(f"{name}={_dict(said)}" for name, said in (("columns", columns), ("units", units)) if said)
 
     # --- names ---
 
-    def _named(self) -> dict[str, int]:
-        """Places of the columns that `columns=` names."""
-        at: dict[str, int] = {}
+    def _take_called(self) -> None:
+        """The columns that `columns=` names or numbers."""
         for column in self.columns:
             own = self.called.get(column.name)
-            if not own:
-                if own is not None and column.needed:
-                    raise ValueError(f'columns: {column.name} is needed, got ""')
+            if own is None:
                 continue
-            ranked = [(rank, i) for i, head in enumerate(self.heads) if (rank := head.spelling((own,))) is not None]
-            best = [i for rank, i in ranked if rank == min(ranked)[0]]
-            if not best:
-                raise ValueError(f"the header names no {short(own)}: {self.text}; columns= must name one of these")
-            place = self._only(best, column)
-            if taken := [name for name, index in at.items() if index == place]:
-                raise ValueError(f"columns: {taken[0]} and {column.name} are both called {short(own)}; give one")
-            at[column.name] = place
-        return at
+            if own == "":
+                self.faults += [f'columns: {column.name} is needed, got ""'] if column.needed else []
+                continue
+            ranks = {i: rank for i, head in enumerate(self.heads) if (rank := head.spelling((str(own),))) is not None}
+            found = [i for i, rank in ranks.items() if rank == min(ranks.values())]
+            if isinstance(own, int) or (not found and own.isascii() and own.isdigit()):
+                found = [int(own) - 1] if 0 < int(own) <= len(self.heads) else []
+            taken = [name for name, index in self.at.items() if index in found]
+            if not found:
+                what = "cells are numbered from 1" if str(own).isdigit() else "columns= must name one of these"
+                self.faults.append(f"the header names no {short(str(own))}; {what}")
+            elif taken:
+                self.faults.append(f"columns: {taken[0]} and {column.name} are both called {short(str(own))}; give one")
+            else:
+                self._take(column, found)
 
-    def _spelt(self, column: Column, spelling: int, taken: set[int]) -> list[int]:
-        """Places of free cells that spell the column so."""
-        found = [
-            i
-            for i, head in enumerate(self.heads)
-            if i not in taken and head.spelling((column.name, *self._names_of(column))) == spelling
-        ]
-        if spelling < SPELLINGS - 1:
-            return found
-        return [i for i in found if self._fits(column, i) or (column.needed and not self._written(column, i))]
+    def _take_named(self) -> None:
+        """The columns whose names are in the header, the best first."""
+        for fit, spelling in product((FITS, BARE, MISFITS), range(SPELLINGS)):
+            for column in self.columns:
+                if column.name not in self.at and column.name not in self.called:
+                    found = [i for i in self._free() if self._rank(column, i) == (fit, spelling)]
+                    if found:
+                        self._take(column, found)
 
-    def _names_of(self, column: Column) -> list[str]:
-        """Other names that a header may give a column."""
-        return [one for one in column.names if column.needed or len(one) > 1 or not self.letters_differ]
+    def _take_lone(self) -> None:
+        """The columns that are missing, where one cell alone is in a unit of them."""
+        for column in self.columns:
+            if column.lone and column.name not in self.at and column.name not in self.called:
+                of_unit = [i for i, head in enumerate(self.heads) if self._measures(i, column)]
+                if len(of_unit) == 1 and of_unit[0] in self._free():
+                    self._take(column, of_unit)
+                    self.said.append(f"{short(self.heads[of_unit[0]].whole)} is read as {column.name}")
 
-    def _best(self, found: list[int], column: Column) -> int | None:
-        """The one of them, or the one in a unit of the column."""
-        fitting = [i for i in found if self._fits(column, i)] or found
-        return self._only(fitting, column) if fitting else None
-
-    def _only(self, found: list[int], column: Column) -> int:
+    def _take(self, column: Column, found: list[int]) -> None:
         if len(found) > 1:
-            raise ValueError(
-                f'the header names {column.name} twice: {self.text}; say which it is, columns={{"{column.name}": ...}}'
-            )
-        return found[0]
+            which = f'say which it is, columns={{"{column.name}": {found[0] + 1}}} for the first'
+            self.faults.append(f"the header names {column.name} twice; {which}")
+        self.at[column.name] = found[0]
 
-    def _fits(self, column: Column, index: int) -> bool:
-        """Whether the cell has a unit of the column, or needs none."""
-        unit = self._written(column, index)
-        needs_none = column.bare or column.unit == "-" or column.name in self.units
-        return column.measured_in(unit) if unit else needs_none
+    def _free(self) -> list[int]:
+        return [i for i in range(len(self.heads)) if i not in self.at.values()]
 
-    def _absent(self, absent: list[Column], taken: set[int]) -> str:
-        """What is wrong with a header that names them not."""
+    def _rank(self, column: Column, index: int) -> tuple[int, int] | None:
+        """How well unit and spelling of a cell fit; None for another name."""
+        names = [one for one in column.names if column.needed or len(one) > 1 or not self.letters_differ]
+        spelling = self.heads[index].spelling((column.name, *names))
+        if spelling is None:
+            return None
+        unit = self.heads[index].unit_of(column, (column.name, *column.names))
+        needs_none = self._is_bare(column) or column.name in self.units
+        fits = (FITS if column.measured_in(unit) else MISFITS) if unit else (FITS if needs_none else BARE)
+        is_other = spelling == SPELLINGS - 1 and (fits == MISFITS or (fits == BARE and not column.needed))
+        return None if is_other else (fits, spelling)
+
+    def _measures(self, index: int, column: Column) -> bool:
+        """Whether a cell has a unit of the column."""
+        return column.unit != "-" and column.measured_in(self.heads[index].unit or self.heads[index].below)
+
+    def _lacks(self, absent: Sequence[Column]) -> str:
+        """What the header names not, and what it must."""
         names = " and no ".join(one.name for one in absent)
-        way_out = f"write {', '.join(one.example for one in self.columns if one.needed)}"
-        if len(self.heads) == 1:
-            way_out = f"columns are separated by commas, semicolons or tabs; {way_out}"
-        free = [head for i, head in enumerate(self.heads) if i not in taken]
-        meant = {one.name: head.whole for one in absent for head in free if one.measured_in(head.unit)}
-        told = ", ".join(f'"{name}": "{short(whole)}"' for name, whole in meant.items()) or f'"{absent[0].name}": ...'
-        return f"the header names no {names}: {self.text}; {way_out}, or say what it calls it, columns={{{told}}}"
-
-    def _meant(self, head: Head, known: set[Column]) -> Column | None:
-        """The column whose unit a cell has; of several the one whose last letter is a word of it."""
-        fitting = [one for one in self.columns if one not in known and one.unit != "-" and one.measured_in(head.unit)]
-        words = re.split(r"[\W_]+", head.name.casefold())
-        return next((one for one in fitting if one.name[-1] in words), fitting[-1] if fitting else None)
-
-    def _called_so(self, column: Column) -> str:
-        """An entry of `columns=` for a column that the header names otherwise."""
-        same = [head.name for head in self.heads if head.name.casefold() == column.name[-1]]
-        return f'"{column.name}": ' + (f'"{same[0]}"' if same else "...")
+        example = ", ".join(one.example for one in self.columns if one.needed)
+        instead = "".join(f", or give {one.instead}" for one in absent if one.instead)
+        named = "the header names" if any(head.whole for head in self.heads) else "there is no header, which names"
+        return f"{named} no {names}; write {example}{instead}"
 
     # --- units ---
 
-    def _written(self, column: Column, index: int) -> str:
+    def _written(self, column: Column) -> str:
         """The unit in the header."""
         own = self.called.get(column.name)
-        return self.heads[index].unit_of(column, (own,) if own else (column.name, *column.names))
+        names = (str(own),) if own else (column.name, *column.names)
+        return self.heads[self.at[column.name]].unit_of(column, names)
 
-    def _unit(self, column: Column, index: int) -> str:
+    def _unit(self, column: Column) -> str:
         """The unit that is written, or that which `units` gives."""
-        return self._written(column, index) or self.units.get(column.name, "")
+        return self._written(column) or self.units.get(column.name, "")
 
-    def _lacks_unit(self, column: Column, index: int) -> bool:
-        return not (self._unit(column, index) or column.bare or column.unit == "-")
+    def _is_bare(self, column: Column) -> bool:
+        return column.bare or column.unit == "-"
 
-    def _fault(self, column: Column, index: int) -> str:
+    def _lacks_unit(self, column: Column) -> bool:
+        return not (self._unit(column) or self._is_bare(column))
+
+    def _fault(self, column: Column) -> str:
         """What is wrong with the unit of a column; empty where nothing is."""
-        name, unit, written, given = column.name, column.unit, self._written(column, index), self.units.get(column.name)
+        name, unit, written, given = column.name, column.unit, self._written(column), self.units.get(column.name)
         if given is not None and scale_of(given, unit) is None:
             return f"units: {name} = {short(repr(given))} is none of {listed(unit)}"
         if written and not column.measured_in(written):
             if unit == "-":
                 return f"{name} is a pure number, got the unit {short(written)!r}"
-            other = self._meant(self.heads[index], {column})
             way_out = f"write {column.example}"
-            if other is not None:
-                way_out = f'is it {other.name}? columns={{"{other.name}": "{short(self.heads[index].name)}"}}'
-            elif not column.needed:
+            if not column.needed:
                 way_out += f'; if it is no {name}, columns={{"{name}": ""}} leaves it out'
             return f"the unit {short(written)!r} of {name} is none of {listed(unit)}; {way_out}"
         if written and given is not None and scale_of(written, unit) != scale_of(given, unit):
             return f"the header gives {name} in {written}, units= in {given}; give one"
-        if self._lacks_unit(column, index):
+        if self._lacks_unit(column):
             return f"{name} needs a unit in its header, one of {listed(unit)}: {column.example}"
         return ""
+
+
+def _dict(said: Mapping[str, str | int]) -> str:
+    """A dict as it is typed."""
+    words = {name: f'"{short(one)}"' if isinstance(one, str) and one != "..." else one for name, one in said.items()}
+    inner = ", ".join(f'"{name}": {word}' for name, word in words.items())
+    return f"{{{inner}}}"
 
 
 def fault(where: str, what: str) -> ValueError:
@@ -255,5 +279,5 @@ def _spelling(own: str, names: Sequence[str]) -> int | None:
 
 def _plain(name: str) -> str:
     """A name without what does not matter in it, but for the case."""
-    same = {"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "_": "", " ": "", "-": "", "µ": "μ"}
+    same = {"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "_": "", " ": "", "-": "", ".": "", "µ": "μ"}
     return "".join(same.get(letter, letter) for letter in name)

@@ -5,15 +5,15 @@
     0, 0.2, tip
     1, 0.9,
 
-The first line that is no comment names the columns, each with its unit in brackets (`csv_header`). They may stand in
-any order, beside others; commas, semicolons or tabs separate them, or what a first line such as `sep=;` says. What is
-wrong is told with its line, and with what to write instead.
+A header names the columns, each with its unit in brackets (`csv_header`); lines above it, the separator and a row of
+units are found (`csv_layout`), and a decimal comma where no number can be read otherwise. Columns may stand in any
+order, beside others. What is wrong is told all at once, with the first lines as read and what to give with the file.
 """
 
 from __future__ import annotations
 
 import csv
-import re
+import math
 from collections.abc import Mapping, Sequence
 from io import StringIO
 from pathlib import Path
@@ -23,12 +23,15 @@ import numpy as np
 
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
+from mdr.tools.checks import count
 from mdr.tools.csv_header import Column, Header, Place, fault
-from mdr.tools.messages import short
-from mdr.tools.notation import UNITS, converted, is_number, number_in, scale_of, shown
+from mdr.tools.csv_layout import Layout, Line, is_like_number, layouts, likely, lines_of, told_separator
+from mdr.tools.messages import MOST_TOLD, one_line, short
+from mdr.tools.notation import converted, decimal_mark, number_in, shown, with_point
 from mdr.tools.warned import warn_outside
 
-Words = Mapping[str, str] | None  #: by columns
+Units = Mapping[str, str] | None  #: of columns whose header has none
+Columns = Mapping[str, str | int] | None  #: name or number, from 1, of columns; "" leaves one out
 
 
 class Tabled:
@@ -70,49 +73,59 @@ class Tabled:
         return pandas.read_csv(StringIO(self.table()), keep_default_na=False, na_values=["nan"], engine="python")
 
 
+class Reading(NamedTuple):
+    """What is said of a file beside its text."""
+
+    units: Units = None
+    columns: Columns = None
+    skip: int | None = None  #: lines above the header; None finds it
+
+
 class Table(NamedTuple):
     """The columns that were found."""
 
     source: str  #: name of the file
     values: dict[str, Array]  #: each column (n,) in the unit of the library
     lines: tuple[int, ...]  #: where each row stands in the file
-    header: str = ""  #: its text
-    hint: str = ""  #: to columns that the header may have under other names
+    header: Header
+    first_lines: str  #: header and first rows as they were read
 
     def fault(self, what: str) -> ValueError:
         """The error of this file."""
         return fault(self.source, what)
 
-    def lacks(self, name: str, example: str) -> ValueError:
-        """The error of a header that names none of several columns."""
-        return self.fault(f"the header names {name}: {self.header}; write {example}{self.hint}")
+    def lacks(self, what: str, example: str, *wanted: str) -> ValueError:
+        """The error of a header that names none of several columns; a file that has them all would be read so."""
+        more = [one for one in self.header.columns if one.name in wanted]
+        return _refusal(self.source, [f"the header names {what}; write {example}"], self.first_lines, self.header, more)
 
 
-def table_of(text: str, source: str, columns: Sequence[Column], *, units: Words = None, called: Words = None) -> Table:
-    """The columns in a text; `units` of columns whose header has none, and what a file has `called` them."""
+def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading, said: str = "") -> Table:
+    """The columns in a text, and one warning of what was guessed, with what is `said` already.
+
+    Raises ValueError with all faults, the first lines as read, and what to give with the file.
+    """
     names = [column.name for column in columns]
-    _require_known("units", units, names)
-    _require_known("columns", called, names)
-    lines = _lines(text, source, columns)
-    separator = _told_separator(text) or _separator(lines, source)
-    rows = [cells_of(line, f"{source}: line {number}", separator) for number, line in lines]
-    header = Header(rows[0], columns, units or {}, called or {})
-    try:
-        found = header.places()
-    except ValueError as refusal:
-        raise fault(source, _elsewhere(lines, header) or str(refusal)) from None
-    values: dict[str, list[float]] = {one.column.name: [] for one in found}
-    for (number, _), row in zip(lines[1:], rows[1:], strict=True):
-        where = f"{source}: line {number}"
-        if any(cell.strip() for cell in row[len(rows[0]) :]):
-            what = f"has {len(row)} cells, the header {len(rows[0])}; if a comma is the decimal mark, write a point"
-            raise fault(where, what)
-        if number == lines[1][0] and (written := _with_units(rows[0], row)):
-            raise fault(where, f"holds units: write them into the header, {', '.join(written)}, and take the line out")
-        for column, place, _ in found:
-            values[column.name].append(_number(row[place] if place < len(row) else "", column, where))
-    scaled = {one.column.name: _scaled(values[one.column.name], one) for one in found}
-    return Table(source, scaled, tuple(number for number, _ in lines[1:]), header.text, header.left(found))
+    _require_known("units", reading.units, names, (str,))
+    _require_known("columns", reading.columns, names, (str, int))
+    skip = None if reading.skip is None else count("skip", reading.skip, 0)
+    layout, header = _layout_of(text, source, columns, reading._replace(skip=skip))
+    first_lines = _as_read(layout)
+    if header.faults:
+        raise _refusal(source, header.faults, first_lines, header)
+    rows, left_out = _without_footer(layout)
+    cells, faults = _cells_of(rows, layout, header, source)
+    mark, wrong = decimal_mark([cell for one in cells.values() for cell in one])
+    faults = [*faults, *([f"{source}: {wrong}"] if wrong else [])]
+    values = {}
+    for place in header.places:
+        values[place.column.name] = _numbers(cells[place.column.name], place.column, mark, rows, source, faults)
+    if faults:
+        raise ValueError("\n".join(_first(faults, source)))
+    if guesses := [*filter(None, [said]), *header.said, *filter(None, [left_out])]:
+        warn_outside(one_line(f"{source}: {'; '.join(guesses)}"))
+    scaled = {place.column.name: _scaled(values[place.column.name], place) for place in header.places}
+    return Table(source, scaled, tuple(row.number for row in rows), header, first_lines)
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:
@@ -123,79 +136,78 @@ def csv_text(columns: Mapping[str, Any]) -> str:
     return out.getvalue()
 
 
-def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
-    """The cells of one line; a quote that is left open ends with it. Raises ValueError, naming `where` it stands."""
-    try:
-        return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-    except csv.Error as wrong:
-        raise fault(where, str(wrong)) from None
-
-
 # --- lines ---
 
 
-def _lines(text: str, source: str, columns: Sequence[Column]) -> list[tuple[int, str]]:
-    """The header and the rows, each with its number. A header may be the last comment before a row of numbers."""
-    first = 1 + bool(_told_separator(text))
-    lines = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if n >= first and line.strip(" \t,;")]
-    rows = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
-    if rows and all(is_number(cell) for cell in re.split(r"[,;\s]+", rows[0][1].strip(" \t,;"))):
-        comments = [(number, line) for number, line in lines if number < rows[0][0]]
-        if not comments:
-            raise fault(f"{source}: line {rows[0][0]}", f"numbers, where a header must be: {_example(columns)}")
-        rows.insert(0, (comments[-1][0], comments[-1][1].lstrip(" \t#")))
-    if len(rows) < 2:
-        raise fault(source, f"holds no table; a header such as {_example(columns)}, and a row a measurement")
-    return rows
+def _layout_of(text: str, source: str, columns: Sequence[Column], reading: Reading) -> tuple[Layout, Header]:
+    """Where the table stands: where a header names what is needed, above numbers; else where most numbers are."""
+    lines, told, called = lines_of(text, reading.skip), told_separator(text), reading.columns or {}
+
+    def header_of(layout: Layout) -> Header:
+        width = max(len(layout.heads), *(len(layout.cells(row)) for row in layout.rows[:1]))
+        heads = [*layout.heads, *[""] * (width - len(layout.heads))]
+        return Header(heads, layout.below, columns, reading.units or {}, called)
+
+    numbered = bool(called) and all(str(one).isdigit() for one in called.values())
+    if not numbered:
+        for layout in layouts(lines, told, reading.skip):
+            header = header_of(layout)
+            if not header.faults and not header.said and _holds(layout, header):
+                return layout, header
+    found = [(layout, header_of(layout), score) for layout, score in likely(lines, told)]
+    if not found:
+        example = ", ".join(one.example for one in columns if one.needed)
+        raise fault(source, f"holds no table; a header such as {example}, and a row a measurement")
+    layout, header, _ = max(found, key=lambda one: (len(one[1].at), -len(one[1].faults), one[2]))
+    if numbered and len(layout.heads) < len(layout.cells(layout.rows[0])):
+        layout = layout._replace(heads=[], below=[], lines=layout.lines[layout.first :], first=0)
+    return layout, header_of(layout)
 
 
-def _example(columns: Sequence[Column]) -> str:
-    """A header as it is meant."""
-    return ", ".join(one.example for one in columns if one.needed)
+def _holds(layout: Layout, header: Header) -> bool:
+    """Whether the first row has a number for each column."""
+    row = layout.cells(layout.rows[0])
+    cells = [(place.column, row[place.at] if place.at < len(row) else "") for place in header.places]
+    return bool(cells) and all(
+        is_like_number(cell) or (column.empty is not None and not cell.strip()) for column, cell in cells
+    )
 
 
-def _told_separator(text: str) -> str:
-    """What a first line such as `sep=;` of Excel says; empty without one."""
-    told = re.match(r'"?sep=([^\w"\r\n])"?[,;\t]*\r?$', text, re.IGNORECASE | re.MULTILINE)
-    return told[1] if told else ""
+def _without_footer(layout: Layout) -> tuple[list[Line], str]:
+    """The rows without what stands below them, and what was left out."""
+    rows = layout.rows
+    end = next(
+        (k for k in range(len(rows), 0, -1) if any(is_like_number(cell) for cell in layout.cells(rows[k - 1]))), 0
+    )
+    words = f"line {rows[end].number}, {short(rows[end].text)}, and what follows is left out" if end < len(rows) else ""
+    return rows[:end], words
 
 
-def _separator(lines: Sequence[tuple[int, str]], source: str) -> str:
-    """What cuts header and first row into equally many cells; else what stands most often in the header."""
-
-    def counts(separator: str) -> list[int]:
-        return [len(cells_of(line.rstrip(" ,;\t"), f"{source}: line {n}", separator)) for n, line in lines[:2]]
-
-    several = {one: found for one in ",;\t" if (found := counts(one))[0] > 1}
-    even = [one for one, found in several.items() if found[0] == found[1]]
-    return max(even or several or ",", key=lines[0][1].count)
-
-
-def _elsewhere(lines: Sequence[tuple[int, str]], header: Header) -> str:
-    """Where a header stands below the first line, or its units do below it; empty where neither does."""
-    # a header may stand below 99 lines
-    for k, (number, line) in enumerate(lines[: min(99, len(lines) - 1)]):
-        separator = _separator(lines[k : k + 2], "")
-        cells, below = (cells_of(one, "", separator) for one in (line, lines[k + 1][1]))
-        written = _with_units(cells, below)
-        for one in (cells, written) if k else (written,):
-            try:
-                Header(one, header.columns, header.units, header.called).places()
-            except ValueError:
-                continue
-            above = f"line {number} looks like the header: take the lines above it out, or begin them with #"
-            own = f"line {lines[k + 1][0]} holds units: write {', '.join(written)} and take it out" if written else ""
-            return "; ".join(filter(None, (above if k else "", own)))
-    return ""
+def _as_read(layout: Layout) -> str:
+    """Header and first rows, cells between bars."""
+    shown_ones = [*([layout.lines[0]] if layout.heads else []), *layout.rows[:2]]
+    cells = [*([layout.heads] if layout.heads else []), *map(layout.cells, layout.rows[:2])]
+    told = (
+        one_line(f"line {line.number}: {' | '.join(row)}", 120) for line, row in zip(shown_ones, cells, strict=True)
+    )
+    return "\n".join(f"  {one}" for one in told)
 
 
-def _with_units(cells: Sequence[str], below: Sequence[str]) -> list[str]:
-    """The cells of a header with the units in the row below; empty where that is no row of units."""
-    units = [one.strip(" []()") for one in below]
-    known = {one for unit in UNITS for one in units if one and scale_of(one, unit) is not None}
-    if not known or any(one not in known for one in units if one) or any(map(is_number, known)):
-        return []
-    return [f"{cell.strip()} [{unit}]" if unit else cell.strip() for cell, unit in zip(cells, units, strict=False)]
+def _refusal(
+    source: str, faults: Sequence[str], first_lines: str, header: Header, more: Sequence[Column] = ()
+) -> ValueError:
+    """The error of a header: its faults, the first lines as they were read, and what to give with the file."""
+    way_out = header.way_out(more)
+    last = [f"  to read it as it is: {one_line(way_out)}"] if way_out else []
+    return ValueError(
+        "\n".join([*_first([one_line(f"{source}: {one}") for one in faults], source), first_lines, *last])
+    )
+
+
+def _first(faults: Sequence[str], source: str) -> list[str]:
+    """The first faults, and how many more there are."""
+    more = [f"{source}: and {len(faults) - MOST_TOLD} more"] if len(faults) > MOST_TOLD else []
+    return [*faults[:MOST_TOLD], *more]
 
 
 # --- values ---
@@ -219,20 +231,49 @@ def warn_of_size(name: str, greatest: float, likely: tuple[float, float], unit: 
         warn_outside(f"{name} is at most {shown(greatest, unit)}, {limit}: is the unit right?")
 
 
-def _require_known(name: str, given: Words, known: Sequence[str]) -> None:
+def _require_known(name: str, given: Mapping[str, Any] | None, known: Sequence[str], kinds: tuple[type, ...]) -> None:
     if given is None:
         return
-    if not isinstance(given, Mapping) or not all(isinstance(one, str) for pair in given.items() for one in pair):
+    if not isinstance(given, Mapping) or not all(isinstance(one, kinds) for one in given.values()):
         example = f'{{"{known[0]}": ...}}'
-        raise TypeError(f"{name} must be a dict from columns to words, {example}, got {short(repr(given))}")
+        what = "words, or numbers from 1" if int in kinds else "words"
+        raise TypeError(f"{name} must be a dict from columns to {what}, {example}, got {short(repr(given))}")
     if strange := [one for one in given if one not in known]:
-        raise ValueError(f"{name}: {short(strange[0])} is no column; there are {', '.join(known)}")
+        raise ValueError(f"{name}: {short(str(strange[0]))} is no column; there are {', '.join(known)}")
 
 
-def _number(cell: str, column: Column, where: str) -> float:
-    if column.empty is not None and cell.strip().casefold() in ("", "inf", "infinity", "∞"):
-        return column.empty
-    try:
-        return number_in(cell)
-    except ValueError as wrong:
-        raise fault(where, f"{wrong} (column {column.name})") from None
+def _cells_of(
+    rows: Sequence[Line], layout: Layout, header: Header, source: str
+) -> tuple[dict[str, list[str]], list[str]]:
+    """The cells of each column, and what is wrong with rows that are too long."""
+    found: dict[str, list[str]] = {place.column.name: [] for place in header.places}
+    faults, width = [], len(layout.heads) or math.inf
+    for line in rows:
+        try:
+            row = layout.cells(line)
+        except ValueError as wrong:
+            row = []
+            faults.append(f"{source}: line {line.number}: {wrong}")
+        if len(row) > width and any(cell.strip() for cell in row[len(layout.heads) :]):
+            what = f"has {len(row)} cells, the header {width}; if a comma is the decimal mark, separate them by ;"
+            faults.append(f"{source}: line {line.number}: {what}")
+        for place in header.places:
+            found[place.column.name].append(row[place.at] if place.at < len(row) else "")
+    return found, faults
+
+
+def _numbers(
+    cells: Sequence[str], column: Column, mark: str, rows: Sequence[Line], source: str, faults: list[str]
+) -> list[float]:
+    """The numbers in the cells of a column; NaN for what is none, which is added to the faults."""
+    found = []
+    for cell, row in zip(cells, rows, strict=True):
+        if column.empty is not None and cell.casefold() in ("", "inf", "infinity", "∞"):
+            found.append(column.empty)
+            continue
+        try:
+            found.append(number_in(with_point(cell) if mark == "," else cell))
+        except ValueError as wrong:
+            found.append(math.nan)
+            faults.append(one_line(f"{source}: line {row.number}: {wrong} (column {column.name})"))
+    return found

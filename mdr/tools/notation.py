@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from mdr.tools.arrays import EXACT, Array
@@ -18,16 +19,16 @@ T = TypeVar("T", float, Array)
 
 def _prefixed(unit: str, prefixes: str, scale: float = 1.0) -> dict[str, float]:
     """The unit, which is `scale` in that of the library, and what it becomes with each prefix."""
-    powers = {"n": -9, "µ": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+    powers = {"p": -12, "n": -9, "µ": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
     return {unit: scale} | {f"{prefix}{unit}": 10.0 ** powers[prefix] * scale for prefix in prefixes}
 
 
 GRAVITY = 9.80665  #: standard gravity [m/s²]
 UNITS = {
-    "m": _prefixed("m", "cmµn"),
+    "m": _prefixed("m", "cmµn") | {"Å": 1e-10},
     "m/s": _prefixed("m/s", "cmµn") | {"mm/min": 1e-3 / 60},
     "m/s²": _prefixed("m/s2", "m") | _prefixed("g", "m", GRAVITY),
-    "N": _prefixed("N", "kmµn"),
+    "N": _prefixed("N", "kmµnp"),
     "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6},
     "rad/s": {"rad/s": 1.0} | _prefixed("Hz", "mkM", math.tau),
     "Hz": _prefixed("Hz", "mkM") | {"rad/s": 1 / math.tau},
@@ -42,6 +43,8 @@ UNITS = {
     "-": dict.fromkeys(("", "-", "1"), 1.0) | {"%": 0.01},
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}
 ZEROS = dict.fromkeys(("degC", "°C", "C"), 273.15)  #: what 0 in a unit is in that of the library, where it is not 0
+#: other words for symbols
+WORDS = {"sec": "s", "seconds": "s", "msec": "ms", "usec": "us", "micron": "um", "microns": "um", "angstrom": "Å"}
 #: which of them is shown, with a prefix, in the place of the unit of the library
 SHOWN = {"rad/s": "Hz", "rad": "deg", "kg": "g"}
 
@@ -62,6 +65,11 @@ def parted(text: str) -> tuple[str, str]:
     """Number and unit of a quantity as texts; "" for what is not there."""
     found = _WITH_UNIT.fullmatch(text.strip())
     return (found["number"], found["unit"] or "") if found else (text.strip(), "")
+
+
+def is_unit(symbol: str) -> bool:
+    """Whether it is one of the units."""
+    return bool(symbol) and not is_number(symbol) and any(scale_of(symbol, unit) is not None for unit in UNITS)
 
 
 def scale_of(symbol: str, unit: str) -> float | None:
@@ -122,6 +130,31 @@ def number_in(cell: str) -> float:
     raise ValueError(f"{short(text) or 'nothing'} is no number{_instead(text)}")
 
 
+def decimal_mark(cells: Sequence[str]) -> tuple[str, str]:
+    """The decimal mark of numbers in one file, and what is wrong where it cannot be told.
+
+    It is a comma if one of them cannot be read otherwise, as 0,5 and 1.234,5 can not. 1,234 alone tells nothing.
+    """
+    commas = [one for one in cells if "," in one]
+    if not any(_is_comma_number(one) for one in commas):
+        return ".", ""
+    points = [one for one in cells if "." in one and "," not in one]
+    if points:
+        return ",", f"{short(commas[0])} and {short(points[0])} stand in one file: write one decimal mark"
+    return ",", ""
+
+
+def with_point(cell: str) -> str:
+    """A number with a decimal comma, as one with a point."""
+    return cell.replace(".", "").replace(",", ".") if "," in cell else cell
+
+
+def _is_comma_number(cell: str) -> bool:
+    """Whether its comma must be a decimal mark."""
+    grouped = _GROUPED.fullmatch(cell) and not re.match(r"[+-]?0", cell)
+    return bool((_DECIMAL_COMMA.fullmatch(cell) and not grouped) or _GROUPED_BY_POINTS.fullmatch(cell))
+
+
 def _instead(text: str) -> str:
     """What to write in the place of what is no number."""
     if not text or text.casefold() in ("nan", "na", "n/a", "-", "--", "inf", "+inf", "-inf", "none", "null"):
@@ -153,6 +186,8 @@ def in_unit(values: T, scale: float) -> T:
 
 
 def _same(symbol: str) -> str:
-    """A symbol without what does not matter in it."""
-    same = {"µ": "u", "μ": "u", "²": "2", "^": "", " ": "", "·": "", "*": ""}
-    return "".join(same.get(letter, letter) for letter in symbol)
+    """A symbol without what does not matter in it: m/s/s, ms-2, m s⁻² and m/sec^2 are m/s2."""
+    same = {"µ": "u", "μ": "u", "²": "2", "¹": "1", "⁻": "-", "^": "", " ": "", "·": "", "*": "", "\u212b": "\u00c5"}
+    text = re.sub(r"[^\W\d_]+", lambda word: WORDS.get(word[0].casefold(), word[0]), symbol)
+    text = "".join(same.get(letter, letter) for letter in text).replace("/s/s", "/s2")
+    return re.sub(r"(?<=.)s-([12])$", lambda power: "/s2" if power[1] == "2" else "/s", text)

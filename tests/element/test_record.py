@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -209,8 +210,17 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
     rows = "\n".join(f"{k},{np.cos(0.2 * k):.6f},{np.sin(0.3 * k):.6f},25" for k in range(2001))
     line = [*written(tmp_path, f"time,x,z,T\n{rows}\n"), "--high-pass", "10Hz", "--n-springs", "32"]
     assert main(line) == 2
-    assert "u_x needs a unit" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "u_x needs a unit" in told
+    assert "to read it as it is: --units t=s u_x=um u_z=um" in told
     assert main([*line, "--columns", "a_x=x", "a_z=z", "--units", "t=ms", "a_x=g", "a_z=g"]) == 0
+    assert "left out: 0.2 of 2 s" in capsys.readouterr().out
+    Path(line[1]).write_text(f"made,x,z,T\n{rows}\n")
+    assert main([*line, "--rate", "1kHz"]) == 2
+    assert "u_x needs a unit" in capsys.readouterr().err
+    assert (
+        main([*line, "--columns", "a_x=2", "a_z=3", "--units", "a_x=g", "a_z=g", "--rate", "1kHz", "--skip", "1"]) == 0
+    )
     assert "left out: 0.2 of 2 s" in capsys.readouterr().out
     with pytest.raises(SystemExit, match="2"):
         main([*line, "--units", "t"])

@@ -138,27 +138,35 @@ def force(path):
 
 FAULTS = [
     # numbers
-    (friction, "v [m/s];mu\n1;0,1\n", "line 2: 0,1 is no number, write 0.1 with a decimal point (column cof)"),
-    (friction, "v [m/s], mu\n0,5, 0,31\n", "line 2: has 4 cells, the header 2; if a comma is the decimal mark"),
+    (friction, "v [m/s];mu\n1.5;0,1\n", "0,1 and 1.5 stand in one file: write one decimal mark"),
+    (
+        friction,
+        "v [m/s], mu\n0,5, 0,31\n",
+        "line 2: has 4 cells, the header 2; if a comma is the decimal mark, separate",
+    ),
     (friction, "v [um/s];mu\n1,234;0.1\n", "write 1234 without a thousands separator or, if the comma is the decimal"),
-    (friction, "v [um/s];mu\n1.234,5;0.1\n", "1.234,5 is no number, write 1234.5"),
+    (
+        friction,
+        "v [um/s];mu\n1,234;2,345\n",
+        "write 1234 without a thousands separator or, if the comma is the decimal",
+    ),
     (friction, "v [m/s], mu\n0.5 mm/s, 0.1\n", "write 0.5 and the unit in the header (column v_0)"),
     (friction, "v [m/s], mu\n1, \n", "line 2: nothing is no number, leave the line out (column cof)"),
     (friction, "v [m/s], mu\n1, high\n", "line 2: high is no number"),
     (friction, 'v [m/s], mu\n1, "0.3\n2, 0.4\n3, high\n', "line 4: high is no number"),  # an open quote ends its line
-    (friction, f"v [m/s], mu\n1, {'3' * 140_000}\n", "line 2: field larger than field limit"),
+    (friction, f"v [m/s], mu\n1, {'3' * 140_000}\n", "is no number (column cof)"),
     # headers
     (friction, "", "holds no table; a header such as v_0 [mm/s], cof, and a row a measurement"),
-    (friction, "1, 0.3\n2, 0.4\n", "line 1: numbers, where a header must be: v_0 [mm/s], cof"),
+    (friction, "1, 0.3\n2, 0.4\n", "there is no header, which names no v_0 and no cof; write v_0 [mm/s], cof"),
     (friction, "v [m/s], mu [N]\n1, 0.3\n", "cof is a pure number, got the unit 'N'"),
-    (friction, "v [m/s], y\n1, 0.3\n", "the header names no cof: v [m/s], y; write v_0 [mm/s], cof"),
+    (friction, "v [m/s], y\n1, 0.3\n", "the header names no cof; write v_0 [mm/s], cof"),
     (friction, "v, mu\n1, 0.3\n", "v_0 needs a unit in its header, one of m/s, cm/s, mm/s, um/s"),
     (friction, "v [km/h], mu\n1, 0.3\n", "the unit 'km/h' of v_0 is none of m/s"),
     (friction, "v [m/s], v [mm/s], mu\n1, 1, 0.3\n", "the header names v_0 twice"),
     (mdr.read_moduli, "f [Hz], E' [mPa], E'' [mPa]\n1, 3, 0.3\n", "'mPa' of storage is none of Pa, kPa, MPa, GPa"),
     (mdr.read_moduli, "f [Hz], E' [MPa]\n1, 3\n", "neither E'' nor tan delta"),
     (mdr.read_moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", "need Poisson's ratio, as E = 2 (1 + nu) G"),
-    (mdr.read_record, "t [s], b [m/s²]\n0, 1\n", "the header names a time alone; write t [s], a [m/s²], or"),
+    (mdr.read_record, "t [s], b [V]\n0, 1\n", "the header names a time alone; write t [s], a [m/s²], or"),
     # rows
     (mdr.read_moduli, "f [Hz], E' [MPa], E'' [MPa]\n1, 3, 1\n2, 3, -0.1\n", "line 3: loss must not be negative"),
     (profile, f"r [um], f [nm]\n{SCAN}\n10.0, 90\n", "lines 3 and 8 both have r = 1e-05 m; give one, or their mean"),
@@ -177,8 +185,9 @@ def test_what_is_wrong_is_told_with_what_to_write(write, read, text, words):
     with pytest.raises(ValueError, match=r"data\.csv: ") as caught:
         read(write(text))
     assert words in str(caught.value)
-    assert str(caught.value).isprintable()
-    assert len(str(caught.value)) < 500
+    for line in str(caught.value).splitlines():
+        assert line.isprintable()
+        assert len(line) < 500
 
 
 def test_a_file_that_is_not_there(tmp_path):
@@ -192,7 +201,7 @@ def test_arguments_of_a_reader_are_checked(write):
         ({"units": {"h": "um"}}, "units: h is no column; there are r, f"),
         ({"units": {"f": "inch"}}, "units: f = 'inch' is none of m, cm"),
         ({"units": {"r": "mm", "f": "nm"}}, "gives r in um, units= in mm; give one"),
-        ({"columns": {"f": "Z"}}, "the header names no Z: r [um], f; columns= must name one of these"),
+        ({"columns": {"f": "Z"}}, "the header names no Z; columns= must name one of these"),
         ({"side": "top"}, 'side must be "both", "left" or "right"'),
     ]:
         with pytest.raises(ValueError) as caught:  # noqa: PT011

@@ -5,7 +5,7 @@ import pytest
 
 from mdr.files.measurements import FORCE, MODULI, MOTION, PROFILE
 from mdr.friction.friction_data import COLUMNS
-from mdr.tools.csv_table import table_of
+from mdr.tools.csv_table import Reading, table_of
 
 WANTED = {
     "motion": (MOTION, {"t": "t [ms]", "a_z": "a [g]"}),
@@ -28,9 +28,11 @@ def test_letters_of_another_case_are_left_alone(kind):
         heads = [*wanted.values(), *others]
         order = rng.permutation(len(heads))
         text = ",".join(heads[i] for i in order) + "\n" + ",".join(str(float(i)) for i in order) + "\n"
-        found = table_of(text, "data.csv", columns)
+        found = table_of(text, "data.csv", columns, Reading())
         assert set(found.values) == set(wanted)
-        alone = table_of(",".join(wanted.values()) + "\n" + ",".join(map(str, range(len(wanted)))), "data.csv", columns)
+        alone = table_of(
+            ",".join(wanted.values()) + "\n" + ",".join(map(str, range(len(wanted)))), "data.csv", columns, Reading()
+        )
         assert all(found.values[name] == alone.values[name] for name in wanted)
 
 
@@ -38,7 +40,7 @@ def test_letters_of_another_case_are_left_alone(kind):
 def test_what_is_named_is_taken_though_another_column_would_claim_it(kind):
     """All names of all columns of the kind stand in the header; each is given to a column that it is not a name of."""
     columns, wanted = WANTED[kind]
-    names = [one for column in columns for one in (column.name, *column.names)]
+    names = [*dict.fromkeys(one for column in columns for one in (column.name, *column.names))]
     by_name = {column.name: column for column in columns}
     for shift in range(1, 11):
         own = {name: names[(7 * shift + 3 * k) % len(names)] for k, name in enumerate(wanted)}
@@ -47,7 +49,7 @@ def test_what_is_named_is_taken_though_another_column_would_claim_it(kind):
         left_out = {one.name: "" for one in columns if one.name not in wanted}
         text = ",".join(names) + "\n" + ",".join(str(float(i)) for i in range(len(names))) + "\n"
         units = {name: by_name[name].unit for name in wanted}
-        found = table_of(text, "data.csv", columns, units=units, called=own | left_out)
+        found = table_of(text, "data.csv", columns, Reading(units, own | left_out))
         assert {name: values[0] for name, values in found.values.items()} == {
             name: float(names.index(head)) for name, head in own.items()
         }

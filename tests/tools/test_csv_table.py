@@ -6,20 +6,7 @@ import numpy as np
 import pytest
 
 from mdr.tools.csv_header import fault
-from mdr.tools.csv_table import Tabled, cells_of, csv_text
-
-
-@pytest.mark.parametrize(
-    ("line", "cells"), [("1, 2", ["1", "2"]), ('1, "2, 3"', ["1", "2, 3"]), ('"open, 2', ["open, 2"]), ("", [])]
-)
-def test_a_line_is_its_cells(line, cells):
-    assert cells_of(line, "here") == cells
-    assert cells_of("1,5;2", "here", ";") == ["1,5", "2"]
-
-
-def test_a_line_that_cannot_be_cut_says_where_it_stands():
-    with pytest.raises(ValueError, match=r"^data\.csv: line 3: field larger than field limit"):
-        cells_of("3" * 140_000, "data.csv: line 3")
+from mdr.tools.csv_table import Tabled, csv_text
 
 
 def test_a_fault_is_one_printable_line():

@@ -1,0 +1,246 @@
+"""Files as instruments, loggers and spreadsheets write them, with made-up rows: at first try, or as a refusal says."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+
+G = 9.80665
+HZ = 2 * np.pi
+PHONE = '"Time (s)","Linear Acceleration x (m/s^2)","Linear Acceleration y (m/s^2)","Linear Acceleration z (m/s^2)"'
+ACCELERATED = {"t": [0, 0.01], "a_x": [0.1, 0.2], "a_y": [0.3, 0.4], "a_z": [0.5, 0.6]}
+DEPTHS = np.arange(8) * 1e-8
+FORCES = 2e-6 * (DEPTHS / 1e-8) ** 1.5
+RADII = np.arange(7) * 1e-5
+HEIGHTS = 3e-8 * np.arange(7) ** 2
+MODULI = {"omega": [HZ, 10 * HZ], "storage": [3e6, 4e6], "loss": [3e5, 8e5]}
+ARMS = {"E_inf": 1e6, "arms": [(6e5, 0.01), (4e5, 1.0)]}
+FRICTION = {"v_0": [5e-4, 1e-3], "cof": [0.31, 0.35]}
+
+
+def rows(*columns, by=",", mark="."):
+    """Rows of columns in the separator and the decimal mark of a file."""
+    return "".join(
+        by.join(f"{one:.10g}".replace(".", mark) for one in row) + "\n" for row in zip(*columns, strict=True)
+    )
+
+
+def record(path, **given):
+    return mdr.read_record(path, **given)
+
+
+def moduli(path, **given):
+    return mdr.read_moduli(path, **given)._asdict()
+
+
+def arms(path, **given):
+    return vars(mdr.Prony.read(path, nu=0.5, **given))
+
+
+def profile(path, **given):
+    found = mdr.SampledProfile.read(path, **given)
+    return {"r": found.r, "f": found.f}
+
+
+def force(path, **given):
+    found = mdr.FromForce.read(path, E_star=1e6, **given)
+    return {"d": found.d, "F": found.F}
+
+
+def friction(path, **given):
+    return vars(mdr.read_friction_data(path, **given))
+
+
+SHAPE, PRESS = {"r": RADII, "f": HEIGHTS}, {"d": DEPTHS, "F": FORCES}
+AXES = {"a_x": "g", "a_y": "g", "a_z": "g"}
+#: where the form is met: reader, text, what is given with the name of the file, what comes out
+AT_ONCE = {
+    "phone app, commas": (record, PHONE + "\n0,0.1,0.3,0.5\n0.01,0.2,0.4,0.6\n", {}, ACCELERATED),
+    "phone app, tabs and decimal commas": (
+        record, PHONE.replace(",", "\t") + "\n0\t0,1\t0,3\t0,5\n0,01\t0,2\t0,4\t0,6\n", {}, ACCELERATED),
+    "logger, four lines above": (
+        record, "DAQ Express 5.1\nDevice: 9234\nRate,1000\n\nTime (s),Acceleration (g)\n0,1\n0.001,-2\n", {},
+        {"t": [0, 1e-3], "a_z": [G, -2 * G]}),
+    "analyser, units in a row": (record, "Time,Acc Z\nsec,m/s/s\n0,1\n0.5,2\n", {}, {"t": [0, 0.5], "a_z": [1, 2]}),
+    "German spreadsheet": (
+        record, "sep=;\nZeit [s];Beschleunigung [m/s²]\n0,000;0,12\n0,001;-1,5\n".encode("cp1252"), {},
+        {"t": [0, 1e-3], "a_z": [0.12, -1.5]}),
+    "spreadsheet, Unicode text": (
+        record, "Time [ms]\tDisplacement [µm]\tDrive [V]\n0\t1\t5\n1\t2\t5\n".encode("utf-16"), {},
+        {"t": [0, 1e-3], "u_z": [1e-6, 2e-6]}),
+    "shaker, units after a comma in quotes": (
+        record, '"Time, ms";"Acceleration, ms-2"\n0;1\n1;2\n', {}, {"t": [0, 1e-3], "a_z": [1, 2]}),
+    "shaker, times rounded to ms": (
+        record, "t [s],a [g]\n" + rows(np.round(np.arange(400) / 1600, 3), np.ones(400)), {}, {"a_z": np.full(400, G)}),
+    "vibrometer, a footer": (
+        record, "Vibrometer export\nTime [s];Displacement [microns]\n0;1\n0.5;2\nEnd of data\n", {},
+        {"t": [0, 0.5], "u_z": [1e-6, 2e-6]}),
+    "logger, letters for axes": (
+        record, "time [s],x [g],y [g],z [g]\n0,0.1,0.2,1\n", {}, {"a_x": [0.1 * G], "a_y": [0.2 * G], "a_z": [G]}),
+    "dynamic test, tabs and a row of units": (
+        moduli, "Instrument\tDMA\nOperator\tA. N.\n\n"
+        "Frequency\tTemperature\tStorage modulus\tLoss modulus\tTan(delta)\n"
+        "Hz\t°C\tMPa\tMPa\t\n1\t20.1\t3\t0.3\t0.1\n10\t20.0\t4\t0.8\t0.2\n", {}, MODULI),
+    "thermal analysis, slashes": (
+        moduli, "#EXPORTTYPE:DATA ALL\n#DECIMAL:COMMA\n##Temp./°C;Frequency/Hz;E'/MPa;tan d\n"
+        "20,0;1,0;3,0;0,1\n20,0;10,0;4,0;0,2\n", {}, MODULI),
+    "rheometer, units in square brackets below": (
+        moduli, "Interval data:\tMeas. Pts.\tAngular Frequency\tStorage Modulus\tLoss Modulus\tDamping Factor\tTorque\n"
+        "\t\t[rad/s]\t[Pa]\t[Pa]\t[1]\t[mN·m]\n"
+        "\t1\t6.283185307179586\t3E+6\t3E+5\t0.1\t2\n\t2\t62.83185307179586\t4E+6\t8E+5\t0.2\t2\n", {}, MODULI),
+    "shear moduli in kPa": (
+        moduli, "Freq. (Hz) ; G' (kPa) ; G'' (kPa)\n1 ; 1000 ; 100\n", {"nu": 0.5}, {"storage": [3e6], "loss": [3e5]}),
+    "finite elements, g_i": (arms, "g_i, k_i, tau_i\n0.3, 0.3, 0.01\n0.2, 0.2, 1\n", {"E_0": 2e6}, ARMS),
+    "finite elements, words": (
+        arms, "Index\tRelative Moduli\tRelaxation Time (s)\n1\t0.3\t0.01\n2\t0.2\t1\n", {"E_0": 2e6}, ARMS),
+    "arms, decimal commas": (arms, "E_j [MPa];tau_j [s]\n0,6;0,01\n0,4;1\n1,0;inf\n", {}, ARMS),
+    "arms, blanks": (
+        arms, "Shear modulus (kPa)  Relaxation time (ms)\n200  10\n133.33333333333334  1000\n"
+        "333.3333333333333  inf\n", {}, ARMS),
+    "stylus, ångström": (
+        profile, "Stylus scan\nScan Length, 60 um\nScan Date, 1/2/2024\nLateral (µm),Total Profile (Å)\n"
+        + rows(1e6 * RADII, 1e10 * HEIGHTS), {}, SHAPE),
+    "surface software, units below": (
+        profile, "X\tZ\nmm\tµm\n" + rows(1e3 * RADII, 1e6 * HEIGHTS, by="\t"), {}, SHAPE),
+    "confocal, decimal commas": (
+        profile, "Distance [µm];Height [µm]\n" + rows(1e6 * RADII, 1e6 * HEIGHTS, by=";", mark=","), {}, SHAPE),
+    "microscope, key and value above": (
+        profile, "Model,X1000\nXY calibration,0.1,um\nSamples,7\n\nNo.,Position (microns),Height (nm)\n"
+        + rows(np.arange(1, 8), 1e6 * RADII, 1e9 * HEIGHTS), {}, SHAPE),
+    "NumPy, blanks below commas": (
+        profile, "# r [um], f [nm]\n" + rows(1e6 * RADII, 1e9 * HEIGHTS, by=" "), {}, SHAPE),
+    "indenter, a count above": (
+        force, "Number of Points = 8\n\nDepth (nm)\tLoad (µN)\tTime (s)\n"
+        + rows(1e9 * DEPTHS, 1e6 * FORCES, np.arange(8), by="\t"), {}, PRESS),
+    "testing machine, all in quotes": (
+        force, '"Time","Extension","Load"\n"(sec)","(mm)","(mN)"\n'
+        + rows(np.arange(8), 1e3 * DEPTHS, 1e3 * FORCES, by='","').replace("\n", '"\n"').rstrip('"').join(['"', ""]),
+        {}, PRESS),
+    "depth and force in other words": (
+        force, "Weg [nm];Kraft [µN]\n" + rows(1e9 * DEPTHS, 1e6 * FORCES, by=";", mark=","), {}, PRESS),
+    "tribometer, decimal commas": (
+        friction, "Probe 7\nDatum;1.2.2024\nv (mm/s);COF\n0,5;0,31\n1,0;0,35\n", {}, FRICTION),
+    "tribometer, words": (
+        friction, "Speed [mm/s], Coefficient of friction [-], Std dev\n0.5, 0.31, 0.01\n1, 0.35, 0.01\n", {}, FRICTION),
+    "two blanks between columns": (
+        friction, "Sliding speed (mm/s)  Friction coefficient\n0.5  0.31\n1.0  0.35\n", {}, FRICTION),
+    "mm/sec": (friction, "Sliding velocity [mm/sec]\tµ\n0.5\t0.31\n1.0\t0.35\n", {}, FRICTION),
+}  # fmt: skip
+#: the same for forms that say too little; the words are those of the refusal without what is given
+WITH_A_WORD = {
+    "phone app without units": (
+        record, "time,gFx,gFy,gFz,TgF\n0,0.1,0.2,1,1.02\n0.01,0.2,0.1,1,1.02\n",
+        {"columns": {"a_x": "gFx", "a_y": "gFy", "a_z": "gFz"}, "units": {"t": "s", **AXES}},
+        {"a_x": [0.1 * G, 0.2 * G], "a_z": [G, G]}, "columns={"),
+    "logger of nanoseconds": (
+        record, "time,seconds_elapsed,z,y,x\n1700000000000000000,0,1,0.2,0.1\n1700000000010000000,0.01,1,0.1,0.2\n",
+        {"columns": {"t": "seconds_elapsed"}, "units": {"t": "s", **AXES}},
+        {"t": [0, 0.01], "a_x": [0.1 * G, 0.2 * G]}, "units={"),
+    "LabVIEW text": (
+        record, "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n"
+        "Decimal_Separator\t,\n***End_of_Header***\t\n\t\nChannels\t1\nSamples\t2\nX_Dimension\tTime\n"
+        "Delta_X\t0,001\n***End_of_Header***\t\nX_Value\tUntitled\tComment\n"
+        "0,000\t0,1\t\n0,001\t-0,25\t\n",
+        {"columns": {"t": "X_Value", "a_z": "Untitled"}, "units": {"t": "s", "a_z": "g"}},
+        {"t": [0, 1e-3], "a_z": [0.1 * G, -0.25 * G]}, 'columns={"t": ..., "a_z": ...}'),
+    "numbers alone": (
+        record, "0.012 -0.98 0.05\n0.015 -0.97 0.06\n",
+        {"columns": {"a_x": 1, "a_y": 2, "a_z": 3}, "units": AXES, "rate": 100.0},
+        {"t": [0, 0.01], "a_x": [0.012 * G, 0.015 * G], "a_z": [0.05 * G, 0.06 * G]}, "columns={"),
+    "number of the sample": (
+        record, "Sample,Accel (g)\n1,0.1\n2,0.2\n3,0.3\n", {"rate": 1e3},
+        {"t": [0, 1e-3, 2e-3], "a_z": [0.1 * G, 0.2 * G, 0.3 * G]}, "rate="),
+    "finite elements, keyword": (
+        arms, "*MATERIAL, NAME=RUBBER\n*VISCOELASTIC, TIME=PRONY\n0.3, 0.3, 0.01\n0.2, 0.2, 1.\n",
+        {"columns": {"g_j": 1, "k_j": 2, "tau_j": 3}, "E_0": 2e6}, ARMS, "columns={"),
+    "moduli in other words": (
+        moduli, "Frequenz [Hz];Speichermodul [MPa];Verlustmodul [MPa]\n1,0;3,0;0,3\n10,0;4,0;0,8\n",
+        {"columns": {"storage": "Speichermodul", "loss": "Verlustmodul"}}, MODULI,
+        'columns={"storage": "Speichermodul", "loss": "Verlustmodul"}'),
+    "surface data without a word": (
+        profile, rows(1e3 * RADII, 1e6 * HEIGHTS, by="\t"),
+        {"columns": {"r": 1, "f": 2}, "units": {"r": "mm", "f": "um"}}, SHAPE, 'columns={"r": 1, "f": 2}'),
+    "force microscope, units in names": (
+        force, "\\*File list\nRamp size: 80 nm\nCalc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_pN_Ex\tDefl_pN_Rt\n"
+        + rows(1e9 * DEPTHS, 1e9 * DEPTHS, 1e12 * FORCES, 1e12 * FORCES, by="\t"),
+        {"columns": {"d": "Calc_Ramp_Ex_nm", "F": "Defl_pN_Ex"}, "units": {"d": "nm", "F": "pN"}}, PRESS, "columns={"),
+    "friction without units": (
+        friction, "velocity,mu\n0.5,0.31\n1.0,0.35\n", {"units": {"v_0": "mm/s"}}, FRICTION, 'units={"v_0": '),
+}  # fmt: skip
+
+
+def written(folder, text):
+    """A file of a text, or of bytes."""
+    path = folder / "data.csv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def agree(found, expected):
+    for name, values in expected.items():
+        assert_allclose(found[name], values, rtol=1e-9, atol=1e-20, err_msg=name)
+
+
+@pytest.mark.parametrize(("read", "text", "given", "expected"), AT_ONCE.values(), ids=AT_ONCE)
+def test_a_file_is_read_at_first_try(tmp_path, read, text, given, expected):
+    agree(read(written(tmp_path, text), **given), expected)
+
+
+@pytest.mark.parametrize(("read", "text", "given", "expected", "words"), WITH_A_WORD.values(), ids=WITH_A_WORD)
+def test_a_file_that_says_too_little_is_read_with_a_word(tmp_path, read, text, given, expected, words):
+    path = written(tmp_path, text)
+    agree(read(path, **given), expected)
+    needed = {name: value for name, value in given.items() if name in ("E_0", "nu")}
+    with pytest.raises(ValueError, match=r"data\.csv: ") as refused:
+        read(path, **needed)
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize(("rate", "jitter"), [(1600.0, 0.0), (300.0, 0.0), (100.0, 0.0), (300.0, 1e-3)])
+def test_times_that_are_even_but_for_rounding_are_even(tmp_path, rate, jitter):
+    """Within the decimal place that the file rounds to; times that are off by more are left as they are."""
+    n = np.arange(500)
+    told = np.round(n / rate + jitter * np.random.default_rng(2).uniform(-1, 1, n.size), 3)
+    told = np.sort(told)
+    t = mdr.read_record(written(tmp_path, "t [s],a [g]\n" + rows(told, np.ones(n.size))))["t"]
+    if jitter:
+        assert_allclose(t, told, rtol=1e-14)
+        return
+    assert_allclose(t, n / rate, atol=5e-4)
+    assert_allclose(np.diff(t), 1 / rate, rtol=1e-4)
+
+
+def test_a_refusal_shows_the_lines_all_faults_and_what_to_give(tmp_path):
+    path = written(tmp_path, "Logger 3\nTime;Ch 1;Ch 2\n0,0;0,1;x\n0,1;0,2;y\n")
+    with pytest.raises(ValueError, match=r"data\.csv: ") as refused:
+        mdr.FromForce.read(path, E_star=1e6, columns={"d": "Ch 1", "F": "Ch 3"})
+    assert str(refused.value).replace(str(path), "data.csv").splitlines() == [
+        "data.csv: the header names no Ch 3; columns= must name one of these",
+        "data.csv: d needs a unit in its header, one of m, cm, mm, um, nm, Å: d [um]",
+        "  line 2: Time | Ch 1 | Ch 2",
+        "  line 3: 0,0 | 0,1 | x",
+        "  line 4: 0,1 | 0,2 | y",
+        '  to read it as it is: columns={"d": "Ch 1", "F": ...}, units={"d": "um", "F": "N"}',
+    ]
+    with pytest.raises(ValueError, match=r"line 3: x is .*\n.*line 4: y is no number"):
+        mdr.read_record(path, columns={"t": "Time", "a_x": 2, "a_z": 3}, units={"t": "s", "a_x": "g", "a_z": "g"})
+
+
+GUESSES = {
+    "a footer": ("t [s],a [g]\n0,1\n1,2\nend of data\nbye\n", {}, "line 4, end of data, and what follows is left out"),
+    "letters": ("t [s],a [m/s²]\n0,1\n".encode("latin-1"), {}, "line 1 is not UTF-8: letters are read as Latin-1"),
+    "a unit": ("Zeit [s],Kanal [g]\n0,1\n", {}, "Zeit [s] is read as t; Kanal [g] is read as a_z"),
+    "rounded times": (
+        "t [s],a [g]\n" + "".join(f"{n / 300:.3f},1\n" for n in range(50)),
+        {},
+        "t is rounded to 0.001 s",
+    ),
+}
+
+
+@pytest.mark.parametrize(("text", "given", "words"), GUESSES.values(), ids=GUESSES)
+def test_a_guess_is_told_in_one_line(tmp_path, text, given, words):
+    with pytest.warns(mdr.PlausibilityWarning) as told:
+        mdr.read_record(written(tmp_path, text), **given)
+    assert [str(one.message).count("\n") for one in told if words in str(one.message)] == [0]
