@@ -281,18 +281,23 @@ def read_record(
 
 def _evened(t: Array, source: str) -> Array:
     """Even times for those that are even but for rounding to a decimal place, which is told; else the same."""
-    n = np.arange(t.size)
-    if t.size < 5:  # too few to tell rounding from jitter
+    from scipy.optimize import minimize_scalar
+
+    if t.size < 4:
         return t
-    slope, start = np.polyfit(n, t - t[0], 1)
-    off = t - t[0] - start - slope * n
+    steps = np.diff(t)
     places = next((k for k in range(10) if np.allclose(t * 10.0**k, np.round(t * 10.0**k), rtol=0, atol=1e-6)), None)
-    # a line through rounded values is off by half a place, and by what n of them leave open
-    is_rounded = places is not None and np.ptp(off) <= 10.0**-places * (1 + t.size**-0.5)
-    if not is_rounded or np.max(np.abs(off)) <= UNEVEN * slope:
+    # one step, or two, that differ may be a sample that was lost
+    if places is None or np.sum(np.abs(steps - np.median(steps)) > UNEVEN * np.mean(steps)) < 3:
         return t
-    warn_outside(f"{source}: t is rounded to {10.0**-places:g} s: even steps of {slope:.6g} s are taken")  # type: ignore[operator]
-    return np.asarray(t[0] + slope * n)
+    n, place, slope = np.arange(t.size), 10.0**-places, float(np.mean(steps))
+    bounds, fine = (slope - 2 * place / t.size, slope + 2 * place / t.size), {"xatol": 1e-5 * place / t.size}
+    slope = float(minimize_scalar(lambda s: np.ptp(t - s * n), bounds=bounds, method="bounded", options=fine).x)
+    off = t - slope * n
+    if np.ptp(off) > place * (1 + 1e-4):  # as near as the slope is found
+        return t
+    warn_outside(f"{source}: t is rounded to {place:g} s: even steps of {slope:.6g} s are taken")
+    return np.asarray((off.min() + off.max()) / 2 + slope * n)
 
 
 def _doubt_units(record: Mapping[str, Array]) -> None:

@@ -100,18 +100,19 @@ def _layout(lines: Sequence[Line], separator: str, header: int, first: int) -> L
     width = len(cells_of(lines[first].text, "", separator))
     heads = _heads(lines[header], separator, width) if header < first else []
     between = [_units(line, separator, width) for line in lines[header + 1 : first]]
-    below: list[str] = next((cells for cells in between if any(map(is_unit, cells))), [])
+    whole = [cells for cells in between if separator != " " or len(cells) == width]
+    below: list[str] = next((cells for cells in whole if any(map(is_unit, cells))), [])
     return Layout(separator, heads, below, list(lines[header:]), first - header)
 
 
 def _heads(line: Line, separator: str, width: int) -> list[str]:
-    """The cells of a header, which may be cut otherwise than rows are by blanks."""
+    """The cells of a header; above rows cut by blanks as many as these have, however they are cut, or one."""
     text = line.text.lstrip(" #%")
     if separator != " ":
         return cells_of(text, "", separator)
     cuts = [cells_of(text, "", one) for one in SEPARATORS[:-1]]
     cuts += [re.split(one, text.strip()) for one in (r"\s{2,}", r"\s+(?![\[(])", r"\s+")]
-    return next((cells for cells in cuts if len(cells) == width), cuts[-2])
+    return next((cells for cells in cuts if len(cells) == width), [text.strip()])
 
 
 def _units(line: Line, separator: str, width: int) -> list[str]:
