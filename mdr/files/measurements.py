@@ -145,12 +145,12 @@ def read_moduli(
     if loss is None and "tan_delta" not in found:
         raise table.lacks("neither E'' nor tan delta", "f [Hz], E' [MPa], tan delta", "loss")
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
-        _require_rows(table, values > 0, f"{name} must be positive")
+        require_rows(table, values > 0, f"{name} must be positive")
     if loss is not None and "tan_delta" in found:
         _require_same(table, loss / storage, found["tan_delta"])
     loss = storage * found["tan_delta"] if loss is None else loss
     sign = "" if np.any(loss > 0) else "; all are: turn the sign of the column"
-    _require_rows(table, loss >= 0, f"loss must not be negative{sign}")
+    require_rows(table, loss >= 0, f"loss must not be negative{sign}")
     taken = _at_temperature(table, temperature)
     omega, modulus = found["omega"][taken], stretch * (storage + 1j * loss)[taken]
     _look_for_repeats(table, taken, omega, modulus, temperature is not None or "T" in (columns or {}))
@@ -166,7 +166,7 @@ def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]
         if temperature is not None:
             raise table.lacks("no temperature", "f [Hz], T [degC], E' [MPa], E'' [MPa]", "T")
         return np.arange(len(table.lines))
-    _require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
+    require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
     T = table.values["T"] - ZEROS["degC"]
     known = np.sort(T)
     there = ", ".join(f"{part.mean():.6g}" for part in np.split(known, np.flatnonzero(np.diff(known) > WITHIN) + 1))
@@ -372,7 +372,7 @@ def force_points(path: str | PathLike[str], reading: Reading, touch: float | Non
     return d, F
 
 
-def _require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
+def require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
     """Refuse the first row that is not good."""
     if not np.all(good):
         i = int(np.argmin(good))

@@ -169,6 +169,95 @@ class Prony(_WithArms):
         return body
 
     @classmethod
+    def fit_relaxation(cls, t: ArrayLike, modulus: ArrayLike, *, nu: float, n_arms: int | None = None) -> Prony:
+        """The body whose modulus E(t) [Pa] after a step of strain comes closest to a measured one.
+
+        Parameters
+        ----------
+        t : array_like of float, shape (n,)
+            Times since the step [s], best from its end on.
+        modulus : array_like of float, shape (n,)
+            Stress over strain, E(t) [Pa].
+        nu : float
+            Poisson's ratio [-].
+        n_arms : int, optional
+            Relaxation times, as in `fit`.
+
+        Returns
+        -------
+        Prony
+            The body. It says nothing about times outside the measured range.
+
+        Raises
+        ------
+        ValueError
+            For data that are not positive, or infinite.
+
+        Warns
+        -----
+        PlausibilityWarning
+            Where the body misses the modulus by more than 10 %.
+
+        Examples
+        --------
+        >>> import mdr, numpy as np
+        >>> t = np.geomspace(0.01, 100, 30)
+        >>> body = mdr.Prony.fit_relaxation(t, 1e6 + 2e6 * np.exp(-t), nu=0.5)
+        >>> print(f"{body.E_inf:.3g} Pa")
+        1e+06 Pa
+        """
+        from mdr.materials import step_fit
+
+        body = cls(*step_fit.to_relaxation(t, modulus, n_arms), nu=nu)
+        step_fit.warn_of_misfit(body, t, modulus, is_creep=False)
+        return body
+
+    @classmethod
+    def fit_creep(cls, t: ArrayLike, compliance: ArrayLike, *, nu: float, n_arms: int | None = None) -> Prony:
+        """The body whose tensile compliance D(t) [1/Pa] after a step of stress comes closest to a measured one.
+
+        Parameters
+        ----------
+        t : array_like of float, shape (n,)
+            Times since the step [s], best from its end on.
+        compliance : array_like of float, shape (n,)
+            Strain over stress, D(t) [1/Pa]; of a shear compliance J it is J/(2 (1 + nu)).
+        nu : float
+            Poisson's ratio [-].
+        n_arms : int, optional
+            Retardation times, as relaxation times in `fit`.
+
+        Returns
+        -------
+        Prony
+            The body. It says nothing about times outside the measured range.
+
+        Raises
+        ------
+        ValueError
+            For data that are not positive, or infinite.
+
+        Warns
+        -----
+        PlausibilityWarning
+            Where the body misses the compliance by more than 10 %.
+
+        Examples
+        --------
+        >>> import mdr, numpy as np
+        >>> t = np.geomspace(0.01, 100, 30)
+        >>> body = mdr.Prony.fit_creep(t, 1e-6 * (1 - 0.5 * np.exp(-t)), nu=0.5)
+        >>> print(f"{body.E_inf:.3g} Pa")
+        1e+06 Pa
+        """
+        from mdr.materials import step_fit
+
+        E_inf, arms, tau = step_fit.to_creep(t, compliance, n_arms)
+        body = cls(E_inf, arms, nu, tau)
+        step_fit.warn_of_misfit(body, t, compliance, is_creep=True)
+        return body
+
+    @classmethod
     def power_law(
         cls, *, modulus: float, exponent: float, omega: tuple[float, float], nu: float, error: float = 1e-3
     ) -> Prony:

@@ -28,12 +28,12 @@ def to_data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int |
     """E_inf [Pa] and arms closest to measured moduli."""
     omega, modulus = _data(omega, storage, loss)
     if n_arms is None:
-        n_arms = max(1, min(_usual_arms(omega), omega.size // 2))
+        n_arms = max(1, min(usual_arms(omega), omega.size // 2))
     n_arms = count("n_arms", n_arms, 1)
     low, high = omega.min(), omega.max()
     times = 1 / (np.geomspace(low, high, n_arms) if n_arms > 1 else np.array([np.sqrt(low * high)]))
     E_inf, moduli = _moduli(omega, modulus, times)
-    return E_inf, _arms(moduli, times)
+    return E_inf, arms_of(moduli, times)
 
 
 def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Pairs]:
@@ -54,14 +54,14 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
         missed = float(np.max(np.abs(arm(np.outer(dense, times)) @ moduli + E_inf - wanted) / np.abs(wanted)))
         least = min(least, missed)
         if missed <= error:
-            return E_inf, _arms(moduli, times)
+            return E_inf, arms_of(moduli, times)
     raise ValueError(
         f"error = {error:g} of the power law is not reached by {MOST_ARMS} arms, only {least:.2g}: "
         "raise error or narrow the range omega"
     )
 
 
-def _arms(moduli: Array, times: Array) -> Pairs:
+def arms_of(moduli: Array, times: Array) -> Pairs:
     """The arms that have a modulus."""
     return tuple((E, time) for E, time in zip(moduli.tolist(), times.tolist(), strict=True) if E > 0)
 
@@ -77,7 +77,7 @@ def warn_of_misfit(
     """Warn where a fitted body misses the data by more than they are good for, with what may help."""
     omega, modulus = _data(omega, storage, loss)
     missed = _misfits(material, omega, modulus)
-    k, usual = int(np.argmax(missed)), _usual_arms(omega)
+    k, usual = int(np.argmax(missed)), usual_arms(omega)
     if missed[k] <= TOLD:
         return
     if twice(omega, modulus).size:
@@ -105,22 +105,28 @@ def _misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
     return np.asarray(np.abs(own - modulus) / np.abs(modulus))
 
 
-def _usual_arms(omega: Array) -> int:
-    # three a decade
+def usual_arms(omega: Array) -> int:
+    """Three a decade."""
     return round(3.0 * float(np.log10(omega.max() / omega.min()))) + 1
 
 
 def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:
     """E_inf and arm moduli, non-negative, of least relative deviation."""
-    from scipy.optimize import nnls
-
     weight = 1 / np.abs(modulus)
     columns = np.column_stack([np.ones(omega.size), arm(np.outer(omega, times))]) * weight[:, None]
     target = modulus * weight
     rows, wanted = (np.concatenate([one.real, one.imag]) for one in (columns, target))
-    found, _ = nnls(rows, wanted, maxiter=100 * times.size)
-    found[found < SAME * found.max()] = 0.0
+    found = least_squares(rows, wanted)
     return float(found[0]), found[1:]
+
+
+def least_squares(rows: Array, wanted: Array) -> Array:
+    """The non-negative numbers, (n,), of which `rows`, (m, n), come closest to what is wanted; 0 for the tiny."""
+    from scipy.optimize import nnls
+
+    found, _ = nnls(rows, wanted, maxiter=100 * rows.shape[1])
+    found[found < SAME * found.max()] = 0.0
+    return np.asarray(found)
 
 
 def _data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[Array, Any]:

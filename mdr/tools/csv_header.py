@@ -42,7 +42,9 @@ class Column(NamedTuple):
     @property
     def example(self) -> str:
         """A header as it is meant."""
-        unit = {"m": "um", "m/s": "mm/s", "rad/s": "Hz", "Pa": "MPa", "K": "degC"}.get(self.unit, self.unit)
+        unit = {"m": "um", "m/s": "mm/s", "rad/s": "Hz", "Pa": "MPa", "1/Pa": "1/MPa", "K": "degC"}.get(
+            self.unit, self.unit
+        )
         return self.name if unit == "-" else f"{self.name} [{unit}]"
 
     def measured_in(self, unit: str) -> bool:
@@ -84,7 +86,7 @@ class Head(NamedTuple):
     def unit_of(self, column: Column, names: Sequence[str]) -> str:
         """The unit behind one of these names; brackets that belong to the name are none."""
         name, whole = (_spelling(one, names) for one in (self.name, self.whole))
-        is_name = whole is not None and (name is None or whole < name)
+        is_name = whole is not None and (name is None or whole <= name)
         own = self.unit if column.measured_in(self.unit) or not is_name else ""
         return own or self.below
 

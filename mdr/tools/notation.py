@@ -30,6 +30,7 @@ UNITS = {
     "m/s²": _prefixed("m/s2", "m") | _prefixed("g", "m", GRAVITY),
     "N": _prefixed("N", "kmµnp"),
     "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6},
+    "1/Pa": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9},
     "rad/s": {"rad/s": 1.0} | _prefixed("Hz", "mkM", math.tau),
     "Hz": _prefixed("Hz", "mkM") | {"rad/s": 1 / math.tau},
     "rad": _prefixed("rad", "m") | dict.fromkeys(("deg", "°"), math.pi / 180),
@@ -190,4 +191,5 @@ def _same(symbol: str) -> str:
     same = {"µ": "u", "μ": "u", "²": "2", "¹": "1", "⁻": "-", "^": "", " ": "", "·": "", "*": "", "\u212b": "\u00c5"}
     text = re.sub(r"[^\W\d_]+", lambda word: WORDS.get(word[0].casefold(), word[0]), symbol)
     text = "".join(same.get(letter, letter) for letter in text).replace("/s/s", "/s2")
-    return re.sub(r"(?<=.)s-([12])$", lambda power: "/s2" if power[1] == "2" else "/s", text)
+    text = re.sub(r"(?<=.)s-([12])$", lambda power: "/s2" if power[1] == "2" else "/s", text)
+    return re.sub(r"^([kMG]?Pa|m?m)-1$", r"1/\1", text)
