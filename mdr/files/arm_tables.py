@@ -9,9 +9,8 @@ import numpy as np
 
 from mdr.files.case_files import record_of
 from mdr.files.measurements import LIKELY_MODULUS, read_table
-from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals
+from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals, instantaneous_of
 from mdr.files.toml_text import parse_toml, read_text, tried
-from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column, fault
 from mdr.tools.csv_table import Reading, Table, warn_of_size
 from mdr.tools.messages import short
@@ -33,20 +32,20 @@ ARMS = (
 )
 
 
-def from_table(path: str | PathLike[str], nu: float | None, E_0: float | None, reading: Reading) -> dict[str, Any]:
+def from_table(
+    path: str | PathLike[str], nu: float | None, E_0: float | None, G_0: float | None, reading: Reading
+) -> dict[str, Any]:
     """The fields of a Prony in a file."""
     name = fsdecode(path)
-    if E_0 is not None:
-        E_0 = positive("E_0", E_0, "instantaneous modulus in Pa")
     if name.lower().endswith(".toml"):
         if any(reading):
             raise fault(name, "units, columns and skip are those of a CSV table")
-        return _from_toml(read_text(path), name, {"nu": nu, "E_0": E_0})
+        return _from_toml(read_text(path), name, {"nu": nu, "E_0": E_0, "G_0": G_0})
     if not name.lower().endswith(".csv"):
         raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(read_table(path, ARMS, reading), nu, E_0), "nu": nu}
+    return {**_from_csv(read_table(path, ARMS, reading), nu, instantaneous_of(E_0, G_0, nu)), "nu": nu}
 
 
 def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
@@ -67,7 +66,7 @@ def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     arms = tau < np.inf
     E_inf, moduli = None if arms.all() else float(E[~arms].sum()), E[arms].tolist()
     if E_0 is None and (kind == "g_j" or are_relative(E_inf, moduli)):
-        raise table.fault(f"{WAY_OUT}E_0= in Pa, or write them in Pa, as E_j [MPa]")
+        raise table.fault(f"{WAY_OUT}E_0= or G_0= in Pa, or write them in Pa, as E_j [MPa]")
     if E_0 is None:
         stretch = 2 * (1 + nu) if kind == "G_j" else 1.0
         E_inf, moduli = stretch * (E_inf or 0.0), [stretch * one for one in moduli]

@@ -27,7 +27,7 @@ keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a 
 load alone is a ConstantLoad, u_z0 alone a ConstantDepth.
 [shake] is left out where nothing moves in the plane besides the pull; without a name it is an InPlaneMotion where a
 list of amplitudes is given, and else an InPlaneOscillation.
-A Prony material has arms = [[E_j, tau_j], ...]. With E_0, the instantaneous modulus, they are shares of it.
+A Prony material has arms = [[E_j, tau_j], ...]. With E_0 or G_0, the instantaneous modulus, they are shares of it.
 
 In the place of a field a file may give what a rig is set to (`mdr.case.paths`): frequency [Hz], load [N], tan_delta,
 theta_deg. Beside a load, hold = "load" says that it is the mean over the period, hold = "depth" that it

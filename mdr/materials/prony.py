@@ -116,6 +116,34 @@ class Prony(_WithArms):
             raise ValueError(what)
 
     @classmethod
+    def from_shear(cls, *, G_inf: float, arms: Any, nu: float) -> Prony:
+        """The body of shear moduli: E = 2 (1 + nu) G.
+
+        Parameters
+        ----------
+        G_inf : float
+            Long-time shear modulus [Pa].
+        arms : sequence of pairs of float
+            Arms (G_j [Pa], tau_j [s]).
+        nu : float
+            Poisson's ratio [-].
+
+        Returns
+        -------
+        Prony
+            The body.
+
+        Examples
+        --------
+        >>> import mdr
+        >>> mdr.Prony.from_shear(G_inf=1e6, arms=[(2e6, 0.01)], nu=0.5)
+        Prony(E_inf=3000000.0, arms=((6000000.0, 0.01),), nu=0.5, tau=0.0)
+        """
+        stretch = 2 * (1 + poisson_ratio("nu", nu))
+        G_inf = not_negative("G_inf", G_inf, "long-time shear modulus in Pa")
+        return cls(stretch * G_inf, tuple((stretch * G_j, tau_j) for G_j, tau_j in _pairs("arms", arms)), nu)
+
+    @classmethod
     def fit(
         cls, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, *, nu: float, n_arms: int | None = None
     ) -> Prony:
@@ -305,6 +333,7 @@ class Prony(_WithArms):
         *,
         nu: float | None = None,
         E_0: float | None = None,
+        G_0: float | None = None,
         units: Units = None,
         columns: Columns = None,
         skip: int | None = None,
@@ -322,6 +351,8 @@ class Prony(_WithArms):
         E_0 : float, optional
             Instantaneous Young's modulus [Pa] of relative moduli, g_j = E_j/E_0, as finite-element programs write
             them. What their sum lacks of 1 is that of E_inf.
+        G_0 : float, optional
+            The same in shear [Pa]: E_0 = 2 (1 + nu) G_0.
         units : dict of str, optional
             Units of columns of a CSV file whose header has none: {"E_j": "MPa"}.
         columns : dict of str or int, optional
@@ -337,7 +368,7 @@ class Prony(_WithArms):
         Raises
         ------
         ValueError
-            With the line or key that is wrong; for moduli between 0 and 1 whose sum is 1, without E_0.
+            With the line or key that is wrong; for moduli between 0 and 1 whose sum is 1, without E_0 or G_0.
 
         Examples
         --------
@@ -351,7 +382,7 @@ class Prony(_WithArms):
 
         if nu is not None:
             nu = poisson_ratio("nu", nu)
-        fields = from_table(path, nu, E_0, Reading(units, columns, skip))
+        fields = from_table(path, nu, E_0, G_0, Reading(units, columns, skip))
         try:
             return cls(**fields)
         except (TypeError, ValueError) as refusal:

@@ -95,6 +95,7 @@ FORMS = {
     "shares": (arms, "E_j, tau_j\n0.3, 0.01\n0.2, 1\n0.5, inf\n", {}, ("shares of the instantaneous", "E_0=")),
     "shares, E_0": (arms, "E_j, tau_j\n0.3, 0.01\n0.2, 1\n0.5, inf\n", {"E_0": 2e6}, SHARES),
     "shares without the long-time one": (arms, "g_i, tau_i\n0.3, 0.01\n0.2, 1\n", {"E_0": 2e6}, SHARES),
+    "shares, G_0": (arms, "g_i, tau_i\n0.3, 0.01\n0.2, 1\n", {"G_0": 2e6 / 3}, SHARES),
     "bulk ones that differ": (stiff_arms, "g_i, k_i, tau_i\n0.3, 0, 0.01\n", {"E_0": 2e6},
                               ("k_j must equal g_j at nu = 0.3",)),
     "bulk ones, left out": (stiff_arms, "g_i, k_i, tau_i\n0.5, 0, 0.01\n", {"E_0": 2e6, "columns": {"k_j": ""}},
@@ -102,6 +103,7 @@ FORMS = {
     "pascals with E_0": (arms, "E_j, tau_j\n3e6, 0.01\n2e6, inf\n", {"E_0": 5e6}, ("leave E_0 out",)),
     "shear moduli": (arms, "G_i [MPa], tau_i [ms]\n1, 10\n2, inf\n", {}, {"E_inf": 6e6, "arm 0": (3e6, 0.01)}),
     "shares in a case": (arms, "E_inf = 0.5\narms = [[0.3, 0.01], [0.2, 1]]\n", {}, ('E_0 = "3 MPa"',)),
+    "shares in a case, G_0": (arms, 'G_0 = "1 MPa"\narms = [[0.3, 0.01], [0.2, 1]]\n', {}, {"E_inf": 1.5e6}),
     "shares in a case, E_0": (arms, 'E_0 = "2 MPa"\narms = [[0.3, 0.01], [0.2, 1]]\n', {}, SHARES),
     # profiles, forces, friction
     "profile in the same letters": (profile, f"r [um], f [um], R [V], F [N]\n{beside(SCAN, 2)}\n", {}, RADII),

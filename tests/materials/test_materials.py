@@ -198,3 +198,8 @@ def test_a_case_of_one_pascal_reads_back():
             mdr.parse_case(text.replace('" Pa"', "").replace('"0.25 Pa"', "0.25").replace('"0.5 Pa"', "0.5"))
         scaled = mdr.parse_case(text.replace('"0.25 Pa"', "0.25\nE_0 = 2e6").replace('"0.5 Pa"', '0.5\nE_0 = "2 MPa"'))
         assert_allclose(scaled.material.instantaneous_modulus * 0.75, 2e6)
+        sheared = mdr.parse_case(text.replace('"0.25 Pa"', "0.25\nG_0 = 1e6").replace('"0.5 Pa"', '0.5\nG_0 = "1 MPa"'))
+        assert_allclose(sheared.material.instantaneous_modulus * 0.75, 3e6)
+        both = text.replace('"0.25 Pa"', "0.25\nG_0 = 1e6\nE_0 = 1").replace('"0.5 Pa"', "0.5\nG_0 = 1\nE_0 = 1")
+        with pytest.raises(mdr.CaseFileError, match="E_0 and G_0 say the same"):
+            mdr.parse_case(both)
