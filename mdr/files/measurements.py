@@ -1,7 +1,8 @@
-"""Measurements in CSV files: points of a profile, force over depth, dynamic moduli, recorded motion.
+"""Measurements in CSV files: points of a profile, dynamic moduli, recorded motion.
 
 Each file has a header that names its columns and their units (`mdr.tools.csv_table`); `units` gives those that a header
-lacks, `columns` what it calls a column, or its number. Friction over velocity is read in `mdr.friction.friction_data`.
+lacks, `columns` what it calls a column, or its number. Force over depth is read in
+`force_curves`, relaxation and creep in `step_tests`, friction over velocity in `mdr.friction.friction_data`.
 """
 
 from __future__ import annotations
@@ -33,10 +34,6 @@ MOST_BYTES = 2**27  #: of a table
 PROFILE = (
     Column("r", ("x", "radius", "position", "distance", "lateral", "X position", "length"), "m", likely=(1e-10, 1.0)),
     Column("f", ("h", "z", "height", "profile", "total profile", "raw height"), "m", likely=(0.0, 1.0)),
-)
-FORCE = (
-    Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.1)),
-    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6)),
 )
 TAN_DELTA = ("tan(delta)", "tan δ", "tan(δ)", "tan d", "loss tangent", "loss factor", "damping", "damping factor")
 MODULI = (
@@ -342,34 +339,6 @@ def profile_points(
     if f[-1] < f[0]:
         raise table.fault("heights fall away from the tip; of a tip that was measured pointing up, give flip=True")
     return r, f
-
-
-def force_points(path: str | PathLike[str], reading: Reading, touch: float | None) -> tuple[Array, Array]:
-    """Depths [m] from the first touch, and forces [N] at them, both from 0."""
-    table = read_table(path, FORCE, reading)
-    d, F = table.values["d"], table.values["F"]
-    if np.all(F <= 0):
-        raise table.fault("no force is above zero; compression must be positive, turn the sign of F")
-    falls = np.flatnonzero(np.diff(d) <= 0)
-    if falls.size:
-        i = int(falls[0])
-        where = f"{table.source}: line {table.lines[i + 1]}"
-        raise fault(where, f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give the loading alone, sorted")
-    if touch is not None:
-        base = float(F[d < touch].mean()) if np.any(d < touch) else 0.0
-        if abs(base) > 0.01 * float(F.max()):  # noise leaves less
-            raise table.fault(
-                f"F is {base:.4g} N before the touch, not 0: take this baseline off the forces of the file"
-            )
-        d, F = d[d >= touch] - touch, F[d >= touch]
-    if d.size and d[0] < 0:
-        raise table.fault(f"d = {d[0]:.6g} m is above the surface; give the depth of the first touch as touch=")
-    # the point (0, 0) is added to a depth that is at most three of the widest steps away
-    if d.size > 1 and d[0] > 3.0 * float(np.diff(d).max()):
-        raise table.fault(f"the first d is {d[0]:.6g} m, far from 0; give the depth of the first touch as touch=")
-    if d.size and d[0] > 0:
-        d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)
-    return d, F
 
 
 def require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:

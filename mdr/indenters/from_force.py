@@ -20,7 +20,7 @@ from mdr.indenters.mapping.shape_check import why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE, spline
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, SAME, Array
-from mdr.tools.checks import finite, finite_array, not_negative, plain, positive_array
+from mdr.tools.checks import finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
 from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
@@ -95,7 +95,9 @@ class FromForce(Indenter):
         units: Units = None,
         columns: Columns = None,
         skip: int | None = None,
+        part: str = "approach",
         touch: float | None = None,
+        baseline: float | None = None,
         tip: str = "any",
         smoothing: float = 0.0,
     ) -> FromForce:
@@ -104,8 +106,8 @@ class FromForce(Indenter):
         Parameters
         ----------
         path : str or path-like
-            The file: the loading alone, depths ascending. Its header names depth and force with their units:
-            `d [um], F [mN]`. The point of first touch, 0, 0, may be left out.
+            The file. Its header names depth and force with their units: `d [um], F [mN]`. The point of first touch,
+            0, 0, may be left out.
         E_star : float
             Contact modulus of the body that was pressed [Pa].
         units : dict of str, optional
@@ -114,9 +116,13 @@ class FromForce(Indenter):
             What the header calls a column, {"d": "Weg", "F": "Kraft"}, or its number, from 1.
         skip : int, optional
             Lines above the header. None finds it.
+        part : str
+            "approach", to the greatest depth, or "retract", back from it.
         touch : float, optional
             Reading of the depth at first touch [m], from which depths count; what was measured before is left out.
-            None: the readings are depths.
+            None: found where the curve begins before the touch, else the readings are depths.
+        baseline : float, optional
+            Force before the touch [N], which is taken off. None: found, or, where `touch` is given, the mean.
         tip : str
             "any", "round", "sharp" or "flat".
         smoothing : float
@@ -132,6 +138,11 @@ class FromForce(Indenter):
         ValueError
             With file and line of what is wrong.
 
+        Warns
+        -----
+        PlausibilityWarning
+            Of touch and baseline that were found.
+
         Examples
         --------
         >>> from pathlib import Path
@@ -141,9 +152,10 @@ class FromForce(Indenter):
         >>> mdr.FromForce.read("press.csv", E_star=4e6, tip="round").max_radius
         0.0002121...
         """
-        from mdr.files.measurements import force_points
+        from mdr.files.force_curves import force_points
 
-        d, F = force_points(path, Reading(units, columns, skip), None if touch is None else finite("touch", touch))
+        power = TIPS[_tip("tip", tip)]
+        d, F = force_points(path, Reading(units, columns, skip), part, touch, baseline, power)
         try:
             return cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:

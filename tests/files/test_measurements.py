@@ -175,7 +175,11 @@ FAULTS = [
     (force, f"d [um], F [mN]\n{SCAN}\n50.0, 2400\n", "line 8: d must ascend, got 5e-05 m after 5e-05 m"),
     (force, "d [um], F [mN]\n" + SCAN.replace(", ", ", -"), "compression must be positive, turn the sign of F"),
     (force, "d [um], F [mN]\n1001, 1\n1002, 2\n1003, 4\n1004, 7\n1005, 11\n1006, 16\n", "far from 0; give the depth"),
-    (force, f"d [um], F [mN]\n-10, 0\n{SCAN}\n", "is above the surface; give the depth of the first touch as touch="),
+    (
+        force,
+        "d [um], F [mN]\n-10, 0\n0, 1\n10, 3\n",
+        "m, above the surface; give the depth of the first touch",
+    ),
     (force, f"d [um], F [mN]\n{SCAN}\n60, 2600\n", "F must rise more and more steeply"),
 ]
 

@@ -112,8 +112,9 @@ FORMS = {
     "force beside D": (force, f"d [nm], F [uN], D [V]\n{beside(CURVE, 1)}\n", {"tip": "round"}, DEPTHS),
     "force with a preamble": (force, f"Mode: single\n\nz (nm), force (nN)\n{CURVE}\n",
                               {"columns": WORDS, "tip": "round"}, DEPTHS),
-    "force with a baseline": (force, "d [nm], F [nN]\n0, 5\n1, 5\n2, 5\n3, 6\n4, 8\n5, 11\n", {"touch": 2e-9},
-                              ("F is 5e-09 N before the touch",)),
+    "force with a baseline": (force, "d [nm], F [nN]\n0, 5\n1, 5\n2, 5\n3, 6\n4, 8\n5, 11\n6, 15\n7, 20\n8, 26\n",
+                              {"touch": 2e-9},
+                              {"d": np.arange(7) * 1e-9, "F": np.array([0, 1, 3, 6, 10, 15, 21]) * 1e-9}),
     "friction in per cent": (friction, "v [mm/s], mu [%], V [V]\n1, 30, 2\n", {}, {"v_0": [1e-3], "cof": [0.3]}),
 }  # fmt: skip
 

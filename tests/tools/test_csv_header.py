@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from mdr.files.measurements import FORCE, MODULI, MOTION, PROFILE
+from mdr.files.force_curves import FORCE
+from mdr.files.measurements import MODULI, MOTION, PROFILE
 from mdr.friction.friction_data import COLUMNS
 from mdr.tools.csv_table import Reading, table_of
 

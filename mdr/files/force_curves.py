@@ -1,0 +1,121 @@
+"""Force over depth in a CSV file: approach or retract, less the force before the touch, from the touch on.
+
+Where the curve begins before the touch, the force there is flat. Touch and baseline are then those of
+
+    F = baseline + C max(d - touch, 0)^n
+
+that come closest to the first third of the rise, n as the tip has it; they are told.
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+
+import numpy as np
+
+from mdr.files.measurements import read_table
+from mdr.tools.arrays import Array
+from mdr.tools.checks import finite
+from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_table import Reading, Table
+from mdr.tools.warned import warn_outside
+
+PARTS = ("approach", "retract")
+RISE = 0.3  #: share of the force up to which touch and baseline are looked for
+POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat one to a cone
+FLAT = 5  #: points before the touch that make a baseline
+LEAST = 2  #: the same of a curve whose readings are no depths
+FORCE = (
+    Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.1)),
+    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6)),
+)
+
+
+def force_points(
+    path: str | PathLike[str], reading: Reading, part: str, touch: float | None, baseline: float | None, power: float
+) -> tuple[Array, Array]:
+    """Depths [m] from the touch, and forces [N] at them, both from 0; `power` n of the tip, 0 where not known."""
+    if part not in PARTS:
+        raise ValueError(f"part must be one of {', '.join(PARTS)}, got {part!r}")
+    touch = None if touch is None else finite("touch", touch, "reading of d in m")
+    baseline = None if baseline is None else finite("baseline", baseline, "force before the touch in N")
+    table = read_table(path, FORCE, reading)
+    d, F = _one_way(table, part)
+    # the point (0, 0) is added to a depth that is at most three of the widest steps away
+    are_depths = d.size < 2 or 0 <= d[0] <= 3.0 * float(np.diff(d).max())
+    found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST else None
+    if found is not None and _begins_before(d, F, found[0], are_depths):
+        touch, baseline = found[0], found[1] if baseline is None else baseline
+        warn_outside(f"{table.source}: touch={touch:.6g} m and baseline={baseline:.4g} N are taken, as found")
+    elif touch is not None and baseline is None and np.any(d < touch):
+        baseline = float(F[d < touch].mean())
+        warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
+    F = F - (baseline or 0.0)
+    if np.all(F <= 0):
+        raise table.fault("no force is above zero; compression must be positive, turn the sign of F")
+    if touch is not None:
+        early = np.arange(d.size) < np.argmax(RISE * F.max() <= F)
+        below = np.flatnonzero(early & (F <= 0))  # before the touch, or by noise after it
+        kept = (d > touch) & (np.arange(d.size) > (below[-1] if below.size else -1))
+        d, F = d[kept] - touch, F[kept]
+    elif not are_depths:
+        where = "above the surface" if d[0] < 0 else "far from 0"
+        raise table.fault(f"the first d is {d[0]:.6g} m, {where}; give the depth of the first touch as touch=")
+    if d.size and d[0] > 0:
+        d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)
+    return d, F
+
+
+def _one_way(table: Table, part: str) -> tuple[Array, Array]:
+    """The rows up to the greatest depth, or from there on in the order of depth."""
+    d, F, lines = table.values["d"], table.values["F"], np.array(table.lines)
+    turn = int(np.argmax(d))
+    if part == "retract":
+        rows = np.arange(d.size - 1, d.size - 2 - int(np.argmax(d[::-1])), -1)
+    elif d.size > 1 and turn == 0:
+        raise table.fault(f'd only falls, from {d[0]:.6g} m: part="retract" takes such a curve')
+    elif d.size - turn > 3 and d[-1] < d[turn] - 0.5 * np.ptp(d):  # it goes back, and not by noise
+        rows = np.arange(turn + 1)
+    else:
+        rows = np.arange(d.size)
+    d, F, lines = d[rows], F[rows], lines[rows]
+    falls = np.flatnonzero(np.diff(d) <= 0)
+    if falls.size:
+        i = int(falls[0])
+        where = f"{table.source}: line {lines[i + 1]}"
+        raise fault(where, f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give one way alone, sorted")
+    return d, F
+
+
+def _begins_before(d: Array, F: Array, touch: float, are_depths: bool) -> bool:
+    """Whether there is a force before the touch, which does not rise, where the readings could be depths."""
+    flat = F[d < touch]
+    return flat.size >= (FLAT if are_depths else LEAST) and not (are_depths and np.mean(np.diff(flat) > 0) > 0.75)
+
+
+def touch_of(d: Array, F: Array, power: float) -> tuple[float, float]:
+    """Touch [m] and baseline [N] of a curve."""
+    from scipy.optimize import minimize_scalar
+
+    before = float(np.median(F[: max(3, F.size // 10)]))
+    end = max(int(np.argmax(before + RISE * (F.max() - before) <= F)) + 1, min(2 * FLAT, F.size))
+    length = float(np.ptp(d[:end]))
+    x, y = (d[:end] - d[0]) / length, F[:end]
+
+    def missed(touch: float, n: float) -> tuple[float, float]:
+        rows = np.column_stack([np.ones(x.size), np.maximum(x - touch, 0) ** n])
+        found = np.linalg.lstsq(rows, y, rcond=None)[0]
+        return float(np.sum((rows @ found - y) ** 2)), float(found[0])
+
+    tried = []
+    for n in (power,) if power else POWERS:
+        places = x[:: max(1, x.size // 200)]
+        k = int(np.argmin([missed(place, n)[0] for place in places[:-1]]))
+        bounds = (places[max(k - 1, 0)], places[min(k + 1, places.size - 1)])
+        found = minimize_scalar(
+            lambda at, n=n: missed(at, n)[0], bounds=bounds, method="bounded", options={"xatol": 1e-9}
+        )
+        touch = float(found.x)
+        tried.append((*missed(touch, n), touch))
+    _, base, touch = min(tried)
+    return float(d[0]) + length * touch, base

@@ -1,0 +1,84 @@
+"""Force curves: approach and retract, touch and baseline, of a known ball and cone."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.files.force_curves import touch_of
+
+E_STAR, DEPTH, TOUCH = 1e5, 200e-9, 100e-9
+BALL, CONE = mdr.Paraboloid(R=5e-6), mdr.Cone(theta=0.3)
+
+
+def curve(shape, n=201, noise=0.0, baseline=0.05):
+    """Readings [m] and forces [N]; noise and baseline are shares of the greatest force."""
+    z = np.linspace(0, TOUCH + DEPTH, n)
+    greatest = float(shape.force(DEPTH, E_STAR))
+    F = np.asarray(shape.force(z - TOUCH, E_STAR))
+    return z, F + greatest * (baseline + noise * np.random.default_rng(4).normal(size=n)), greatest
+
+
+def written(path, z, F):
+    path.write_text(
+        "Ramp 7\n\nz (nm)\tF (nN)\n" + "".join(f"{1e9 * a}\t{1e9 * b}\n" for a, b in zip(z, F, strict=True))
+    )
+    return path
+
+
+def read(path, **given):
+    return mdr.FromForce.read(path, E_star=E_STAR, columns={"d": "z"}, **given)
+
+
+@pytest.mark.parametrize(("shape", "power"), [(BALL, 1.5), (CONE, 2.0)])
+@pytest.mark.parametrize("n", [31, 201, 4001])
+def test_touch_and_baseline_of_a_known_shape_are_found(shape, power, n):
+    """Without noise exactly; else to a few times the noise, and better the more points there are."""
+    z, F, greatest = curve(shape, n)
+    for known in (power, 0.0):
+        assert_allclose(touch_of(z, F, known), (TOUCH, 0.05 * greatest), rtol=1e-6)
+    z, F, greatest = curve(shape, n, noise=0.01)
+    touch, baseline = touch_of(z, F, power)
+    assert abs(touch - TOUCH) < 10 * 0.01 * DEPTH / n**0.25  # a ball bends off by noise at 0.01^(2/3) of the depth
+    assert abs(baseline - 0.05 * greatest) < 4 * 0.01 * greatest / (n / 3) ** 0.5  # of a third of the points
+
+
+def test_a_ball_comes_back_within_the_noise(tmp_path):
+    z, F, greatest = curve(BALL, noise=0.005)
+    with pytest.warns(mdr.PlausibilityWarning, match=r"touch=1.* m and baseline=.* N are taken, as found"):
+        shape = read(written(tmp_path / "data.csv", z, F), tip="round", smoothing=0.005 * greatest)
+    d = np.linspace(0.2, 0.9, 8) * DEPTH
+    assert_allclose(shape.force(d, E_STAR), BALL.force(d, E_STAR), atol=3 * 0.005 * greatest)
+    assert_allclose(shape.contact_radius(0.5 * DEPTH), BALL.contact_radius(0.5 * DEPTH), rtol=0.03)
+
+
+def test_touch_and_baseline_that_are_given_are_taken(tmp_path):
+    z, F, greatest = curve(BALL)
+    path = written(tmp_path / "data.csv", z, F)
+    for given in ({"touch": TOUCH}, {"touch": TOUCH, "baseline": 0.05 * greatest}, {"baseline": 0.05 * greatest}, {}):
+        assert_allclose(
+            read(path, tip="round", **given).force(DEPTH / 2, E_STAR), BALL.force(DEPTH / 2, E_STAR), rtol=1e-4
+        )
+    with pytest.raises(ValueError, match="F must rise more and more steeply"):
+        read(path, tip="round", touch=TOUCH, baseline=0.0)  # the jump at the touch is one of a flat face
+
+
+def test_approach_and_retract_are_apart(tmp_path):
+    """The retract of another force, so that they cannot be taken for one another; a dwell between them."""
+    z, F, greatest = curve(BALL)
+    back = curve(CONE)[1] + 0.1 * greatest
+    path = written(tmp_path / "data.csv", [*z, *[z[-1]] * 3, *z[::-1]], [*F, *[F[-1]] * 3, *back[::-1]])
+    for part, tip, shape in [("approach", "round", BALL), ("retract", "sharp", CONE)]:
+        found = read(path, part=part, tip=tip)
+        assert_allclose(found.force(DEPTH / 2, E_STAR), shape.force(DEPTH / 2, E_STAR), rtol=1e-4)
+    with pytest.raises(ValueError, match='part="retract" takes such a curve'):
+        read(written(path, z[::-1], F[::-1]))
+    with pytest.raises(ValueError, match="part must be one of approach, retract"):
+        read(path, part="both")
+
+
+@pytest.mark.parametrize("shape", [BALL, CONE, mdr.FlatPunch(a=1e-6)])
+def test_readings_that_are_depths_are_left_as_they_are(tmp_path, shape):
+    d = np.linspace(0, DEPTH, 31)[1:]
+    path = written(tmp_path / "data.csv", d, np.asarray(shape.force(d, E_STAR)))
+    assert_allclose(read(path).d[1:], d, rtol=1e-12)
