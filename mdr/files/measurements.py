@@ -51,6 +51,7 @@ TIME = Column("t", ("time", "elapsed time", "timestamp"), "s", lone=True, instea
 def _acceleration(axis: str, *names: str) -> Column:
     """A component; its letter alone is a name too, which a unit tells from a position."""
     words = [f"{word} {axis}" for word in ("acceleration", "linear acceleration", "accelerometer", "accel", "acc")]
+    words += [f"{axis} axis", f"{axis} acceleration", f"{axis} axis acceleration"]
     return Column(f"a_{axis}", (axis, *words, *names), "m/s²", needed=False, lone=axis == "z", likely=FASTEST)
 
 

@@ -135,6 +135,8 @@ class Header:
             fitting = [i for i in free if self._measures(i, one)]
             fitting.sort(key=lambda i: one.name[-1] not in re.split(r"[\W_]+", self.heads[i].name.casefold()))
             at = next(iter(fitting or ([i for i in blank if i in free] if len(blank) == len(absent) else [])), None)
+            if at is None and not (one.needed or one.lone) and any(other.lone for other in more):
+                continue
             columns[one.name] = "..." if at is None else self.heads[at].name or at + 1
             free = [i for i in free if i != at]
             bare += [one] if not fitting and not self._is_bare(one) and one.name not in self.units else []
@@ -178,8 +180,10 @@ class Header:
 
     def _take_lone(self) -> None:
         """The columns that are missing, where one cell alone is in a unit of them."""
+        is_bare = not any(one.name in self.at for one in self.columns if not one.needed)
         for column in self.columns:
-            if column.lone and column.name not in self.at and column.name not in self.called:
+            is_open = column.lone and column.name not in self.at and column.name not in self.called
+            if is_open and (column.needed or is_bare):
                 of_unit = [i for i, head in enumerate(self.heads) if self._measures(i, column)]
                 if len(of_unit) == 1 and of_unit[0] in self._free():
                     self._take(column, of_unit)

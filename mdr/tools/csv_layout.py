@@ -90,7 +90,8 @@ def likely(lines: Sequence[Line], told: str) -> Iterator[tuple[Layout, tuple[flo
 def _below(lines: Sequence[Line], separator: str, start: int) -> Layout:
     """The way to read of which the first row is known: a header, or a header and a row of units, stands above it."""
     above = [i for i in range(max(start - 2, 0), start) if not is_row(cells_of(lines[i].text, "", separator))]
-    if len(above) == 2 and not any(map(is_unit, _units(lines[above[1]], separator, 0))):
+    width = len(cells_of(lines[start].text, "", separator))
+    if len(above) == 2 and not any(map(is_unit, _units(lines[above[1]], separator, width))):
         above = above[1:]
     return _layout(lines, separator, above[0] if above and above[-1] == start - 1 else start, start)
 
@@ -112,6 +113,7 @@ def _heads(line: Line, separator: str, width: int) -> list[str]:
         return cells_of(text, "", separator)
     cuts = [cells_of(text, "", one) for one in SEPARATORS[:-1]]
     cuts += [re.split(one, text.strip()) for one in (r"\s{2,}", r"\s+(?![\[(])", r"\s+")]
+    cuts += [text.partition(":")[2].split()]  # columns: a b
     return next((cells for cells in cuts if len(cells) == width), [text.strip()])
 
 

@@ -184,13 +184,11 @@ def _without_footer(layout: Layout) -> tuple[list[Line], str]:
 
 
 def _as_read(layout: Layout) -> str:
-    """Header and first rows, cells between bars."""
-    shown_ones = [*([layout.lines[0]] if layout.heads else []), *layout.rows[:2]]
-    cells = [*([layout.heads] if layout.heads else []), *map(layout.cells, layout.rows[:2])]
-    told = (
-        one_line(f"line {line.number}: {' | '.join(row)}", 120) for line, row in zip(shown_ones, cells, strict=True)
-    )
-    return "\n".join(f"  {one}" for one in told)
+    """The lines down to the first row and one more, cells between bars."""
+    above = layout.lines[: layout.first]
+    cells = [(line, layout.heads if line is above[0] else layout.cells(line)) for line in above]
+    cells += [(line, layout.cells(line)) for line in layout.rows[:2]]
+    return "\n".join(f"  {one_line(f'line {line.number}: ' + ' | '.join(row), 120)}" for line, row in cells)
 
 
 def _refusal(
