@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr.closed_forms.rigid_pull import average_friction
 from mdr.tools.fields import example_of, facts_of, has_example
 from validation.full_slip import full_slip
 
@@ -256,7 +257,7 @@ CALLS = [
     (mdr.half_space.curve, {"case": RIGID, "v_0": [1e-4]}, {"v_0": [([], "must be a list of velocities")]}),
     (mdr.random_cof, {"case": RIGID, "spectrum": BAND, "v_0": 1e-4}, {
         "v_0": [*VELOCITIES, (0.0, "must be positive")], "n_realisations": [*COUNT, (8.0, "whole number")]}),
-    (mdr.closed_forms.rigid_pull.average_friction, {"case": RIGID, "v_0": 1e-4}, {
+    (average_friction, {"case": RIGID, "v_0": 1e-4}, {
         "v_0": [([1e-3, 0.0], "must be positive"), (NAN, "must be finite")]}),
     (mdr.Quantity, {"name": "depth", "unit": "m", "of": len}, {
         "name": [*((one, "must be of letters, digits and _") for one in ("a b", "v_0/v_c", "status", "")),
