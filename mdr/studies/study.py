@@ -189,7 +189,7 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
         try:
             import xarray
         except ImportError:
-            raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
+            raise ImportError("to_xarray needs xarray: .venv/bin/pip install -e '.[xarray]'") from None
         return xarray.load_dataset(BytesIO(packed(self)), engine="scipy")
 
     def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Any:
