@@ -469,6 +469,15 @@ def test_a_full_disk_names_the_file_and_its_disk_and_costs_no_result(capsys, pun
     assert re.fullmatch(rf"mdr: {file}: cannot be written: No space .*; .* MB are free on the disk of .*\n", err)
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+def test_a_full_disk_under_standard_output_is_not_a_fault_of_the_case():
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "mdr", "velocity", EXAMPLE]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 1
+    assert done.stderr == "mdr: standard output: cannot be written: No space left on device\n"
+
+
 def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("")
