@@ -179,8 +179,13 @@ def test_import_is_light():
     code = f"""
 import sys, mdr
 assert not [name for name in {heavy!r} if name in sys.modules]
-import mdr.plots
+from contextlib import suppress
 from mdr.__main__ import main
+for words in (["--help"], ["help"], ["velcity"]):
+    with suppress(SystemExit):
+        main(words)
+assert "numba" not in sys.modules
+import mdr.plots
 main(["velocity", {str(ROOT / "docs" / "example.toml")!r}])
 assert "matplotlib" not in sys.modules
 """
