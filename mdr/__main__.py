@@ -1,6 +1,6 @@
 """The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `tolerance` and
-`export` of a case file, `mdr record` of a recorded motion, `mdr sweep` of a study file, `mdr explore` in the browser,
-`mdr shapes` and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
+`export` of a case file, `mdr record` and `mdr motion` of a recorded motion, `mdr sweep` of a study file, `mdr explore`
+in the browser, `mdr shapes` and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -17,59 +17,79 @@ import sys
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any
+from itertools import takewhile
+from pkgutil import resolve_name
+from typing import Any, NamedTuple
 
 import mdr
-from mdr.case.contact import SlidingContact
-from mdr.commands import ask, begin, completion, curve, explore, export, fit, judge, record, run, sweep, velocity, warm
-from mdr.commands.arguments import NEGATIVE, joined, no_options, path_of
-from mdr.commands.output import Exit, WrongInput, complain
+from mdr.commands.arguments import NEGATIVE, joined, path_of
+from mdr.commands.output import Exit, NotWritten, WrongInput, complain
 from mdr.files.toml_text import CaseFileError, StandardInput
-from mdr.given.case_file import read_case, read_said
-from mdr.normal.resolved import plausibility
-from mdr.studies.study_files import read_study_file
+from mdr.tools.messages import offer
 from mdr.tools.warned import PlausibilityWarning, warn_outside
 
 JSON = "print one JSON object instead of text"
-#: name, work, summary, what reads its file, what adds its options
-COMMANDS: tuple[tuple[str, Callable[..., int], str, Callable[[str], Any] | None, Callable[[Any], None]], ...] = (
-    ("velocity", velocity.velocity, "critical velocity and static friction in closed form, without a run", read_case,
-     no_options),
-    ("run", run.run, "one velocity: friction with its error, and the springs that stick and slip", read_case,
-     run.add_options_of_run),
-    ("curve", curve.curve, "coefficient of friction over pulling velocity, by simulation", read_case,
-     curve.add_options),
-    ("half-space", run.half_space, "one velocity in three dimensions: friction with its errors, and a map", read_case,
-     run.add_options_of_half_space),
-    ("measure", judge.measure, "critical velocity from simulation alone", read_case, judge.add_accuracy_of_bracket),
-    ("verdict", judge.verdict, "how good the closed-form v_c is, and what to use in its place", read_case,
-     judge.add_options),
-    ("fit", fit.fit, "parameters of the case from measured friction over velocity", read_said, fit.add_options),
-    ("find", ask.find, "the value of one number that brings about a friction, or a critical velocity", read_said,
-     ask.add_options_of_find),
-    ("tolerance", ask.tolerance, "friction and critical velocity as each input alone is a little less and more",
-     read_said, ask.add_options_of_tolerance),
-    ("record", record.record, "friction under a recorded motion, from a CSV file and a case file", None,
-     record.add_options),
-    ("export", export.export, "the contact as a C header or a unit for co-simulation (FMI 2.0)", read_case,
-     export.add_options),
-    ("sweep", sweep.sweep, "a grid of cases, from a study file; the same call goes on after any end", read_study_file,
-     sweep.add_options),
-    ("explore", explore.explore, "a page in the browser to try a case with sliders", None, explore.add_options),
-    ("shapes", begin.shapes, "the shapes, materials and motions that a file can name, and their keys", None,
-     no_options),
-    ("case", begin.case, "a commented case file to begin with", None, begin.add_options),
-    ("warm", warm.warm, "compile all that runs need now, once on this machine, so that no run waits for it", None,
-     no_options),
-    ("completion", completion.completion, "a script that completes commands and options in the shell", None,
-     completion.add_options),
-)  # fmt: skip
+CASES, STUDIES = "`mdr case > case.toml` makes one", "a case file with [axes], what varies, and quantities"
+
+
+class Command(NamedTuple):
+    """A command; what it stands on is imported when it is asked for."""
+
+    work: str  #: module and function below `mdr.commands`
+    summary: str
+    reads: str = ""  #: what reads its file; none of what takes no file, or more than one
+    options: str = ""  #: function of the same module that adds its options
+
+
+CASE, SAID = "mdr.given.case_file:read_case", "mdr.given.case_file:read_said"
+COMMANDS = {
+    "velocity": Command(
+        "velocity:velocity", "critical velocity and static friction in closed form, without a run", CASE),
+    "run": Command(
+        "run:run", "one velocity: friction with its error, and the springs that stick and slip", CASE,
+        "add_options_of_run"),
+    "curve": Command(
+        "curve:curve", "coefficient of friction over pulling velocity, by simulation", CASE, "add_options"),
+    "half-space": Command(
+        "run:half_space", "one velocity in three dimensions: friction with its errors, and a map", CASE,
+        "add_options_of_half_space"),
+    "measure": Command("judge:measure", "critical velocity from simulation alone", CASE, "add_accuracy_of_bracket"),
+    "verdict": Command(
+        "judge:verdict", "how good the closed-form v_c is, and what to use in its place", CASE, "add_options"),
+    "fit": Command("fit:fit", "parameters of the case from measured friction over velocity", SAID, "add_options"),
+    "find": Command(
+        "ask:find", "the value of one number that brings about a friction, or a critical velocity", SAID,
+        "add_options_of_find"),
+    "tolerance": Command(
+        "ask:tolerance", "friction and critical velocity as each input alone is a little less and more", SAID,
+        "add_options_of_tolerance"),
+    "record": Command(
+        "record:record", "friction under a recorded motion, from a CSV file and a case file", options="add_options"),
+    "motion": Command(
+        "record:motion", "a table [oscillation] from what an accelerometer recorded, from a CSV file",
+        options="add_options_of_motion"),
+    "export": Command(
+        "export:export", "the contact as a C header or a unit for co-simulation (FMI 2.0)", CASE, "add_options"),
+    "sweep": Command(
+        "sweep:sweep", "a grid of cases, from a study file; the same call goes on after any end",
+        "mdr.studies.study_files:read_study_file", "add_options"),
+    "explore": Command("explore:explore", "a page in the browser to try a case with sliders", options="add_options"),
+    "shapes": Command(
+        "begin:shapes", "the shapes, materials and motions that a file can name, and their keys",
+        options="add_options_of_shapes"),
+    "case": Command("begin:case", "a commented case file to begin with", options="add_options"),
+    "warm": Command("warm:warm", "compile all that runs need now, once on this machine, so that no run waits for it"),
+    "completion": Command(
+        "completion:completion", "a script that completes commands and options in the shell", options="add_options"),
+}  # fmt: skip
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
     given = list(sys.argv[1:] if argv is None else argv)
+    if given[:1] == ["help"]:
+        given = [*given[1:2], "--help"]
     top = parser()
     args = top.parse_args(joined(given))
     if args.work is None:
@@ -108,6 +128,8 @@ def _run(args: argparse.Namespace) -> int:
         return complain(str(fault), Exit.WRONG_INPUT)
     except BrokenPipeError:
         raise
+    except NotWritten as fault:
+        return complain(str(fault))
     except _FAILURES as fault:
         where = f"{args.case}: " if args.read else ""
         return complain(f"{where}{str(fault) or type(fault).__name__}")
@@ -123,34 +145,70 @@ def _require_one_standard_input(args: argparse.Namespace) -> None:
 def _read(args: argparse.Namespace) -> Any:
     """What the file describes; what is unlikely of it is warned of."""
     case = args.read(args.case)
-    base = case if isinstance(case, SlidingContact) else getattr(case, "case", None)  # of a study
-    for doubt in plausibility(base) if base is not None else ():
+    base = case if isinstance(case, mdr.SlidingContact) else getattr(case, "case", None)  # of a study
+    for doubt in mdr.plausibility(base) if base is not None else ():
         warn_outside(doubt)
     return case
 
 
-def parser() -> argparse.ArgumentParser:
-    """The commands and their options."""
-    top = argparse.ArgumentParser(
+class _Parser(argparse.ArgumentParser):
+    """A parser that offers the spelling that was meant; of a command, one that knows its options once it is used."""
+
+    command: Command | None = None
+
+    def fill(self) -> _Parser:
+        """Add what the command takes; done once."""
+        command, self.command = self.command, None
+        if command is None:
+            return self
+        module = f"mdr.commands.{command.work.partition(':')[0]}"
+        read = resolve_name(command.reads) if command.reads else None
+        self.set_defaults(work=resolve_name(f"mdr.commands.{command.work}"), read=read)
+        if read is not None:
+            file, begin = ("study", STUDIES) if "study" in command.reads else ("case", CASES)
+            self.add_argument(
+                "case", metavar=f"{file}.toml", type=path_of, help=f"the {file} file; {begin}; - is standard input"
+            )
+            self.usage = f"%(prog)s {file}.toml [options]"  # a list of values would take the file for one
+        if command.options:
+            resolve_name(f"{module}:{command.options}")(self)
+        return self
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse; an option that there is not is told before what is missing."""
+        known = [word for one in self.fill()._actions for word in one.option_strings if word.startswith("--")]
+        given = takewhile(lambda word: word != "--", args)
+        if self._subparsers:  # what follows the command is its own
+            given = takewhile(lambda word: word.startswith("-"), given)
+        for word in (one.partition("=")[0] for one in given):
+            if word.startswith("--") and word not in known:
+                self.error(f"{word} is no option; {offer(word, known)}")
+        return super().parse_known_args(args, namespace)
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if isinstance(action, argparse._SubParsersAction) and value not in COMMANDS:
+            raise argparse.ArgumentError(None, f"{value!r} is no command; {offer(value, list(COMMANDS))}")
+        super()._check_value(action, value)
+
+
+def parser() -> _Parser:
+    """The commands; each learns its options when it is used."""
+    top = _Parser(
         prog="mdr", allow_abbrev=False,
-        description="Sliding friction of a viscoelastic contact under normal oscillation, from a case file (TOML, SI).",
+        description="Sliding friction of an elastic or viscoelastic contact that is vibrated up and down, along the "
+        "slide or across it, from a case file (TOML, SI). `mdr case > case.toml` makes one to begin with.",
         epilog="exit status: 0 done, 1 a run failed or did not settle, 2 wrong input, 130 interrupted",
     )  # fmt: skip
     top.set_defaults(work=None, read=None)
     top.add_argument("--json", action="store_true", help=JSON)
     top.add_argument("--version", action="version", version=f"mdr {mdr.__version__}")
-    commands = top.add_subparsers(metavar="command")
-    for name, work, summary, read, add_options in COMMANDS:
-        command = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+    commands = top.add_subparsers(metavar="command", parser_class=_Parser)
+    for name, its in COMMANDS.items():
+        command = commands.add_parser(name, help=its.summary, description=its.summary, allow_abbrev=False)
         command.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help=JSON)
         command._negative_number_matcher = NEGATIVE
-        command.set_defaults(work=work, read=read, top=top)
-        if read is not None:
-            file, shown = ("study", "study.toml") if name == "sweep" else ("case", "example.toml")
-            meaning = f"the {file} file; docs/{shown} is one; - is standard input"
-            command.add_argument("case", metavar=f"{file}.toml", type=path_of, help=meaning)
-            command.usage = f"%(prog)s {file}.toml [options]"  # a list of values would take the file for one
-        add_options(command)
+        command.command = its
+        command.set_defaults(top=top)
     return top
 
 

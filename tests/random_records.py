@@ -79,8 +79,11 @@ def in_units(record, length, time, force):
         value, unit = getattr(record, one.name), facts_of(one).unit
         if one.name == "arms":
             changed["arms"] = [(E_j * force / length**2, tau_j * time) for E_j, tau_j in value]
-        elif value is not None and (unit in POWERS or unit == "m^(1-n)"):
-            x, t, F = POWERS.get(unit) or (1 - record.n, 0, 0)
+        elif value is not None and unit:
+            of_power = {"m^(1-n)": (1 - record.n, 0, 0)} if isinstance(record, mdr.PowerLaw) else {}
+            powers = POWERS | of_power
+            assert unit in powers, f"{one.name}: give POWERS in tests/random_records.py a line for the unit {unit}"
+            x, t, F = powers[unit]
             factor = length**x * time**t * force**F
             changed[one.name] = tuple(v * factor for v in value) if isinstance(value, tuple) else value * factor
     return replace(record, **changed)

@@ -1,5 +1,6 @@
 """What users are promised: the names, how they are called, and that importing them is light."""
 
+import ast
 import inspect
 import re
 import runpy
@@ -174,17 +175,34 @@ def test_a_folder_that_was_never_installed_has_no_version(monkeypatch):
 
 def test_import_is_light():
     heavy = ["matplotlib", "tqdm", "scipy.optimize", "scipy.integrate", "scipy.fft", "scipy.io", "dask", "xarray"]
-    heavy += ["mdr.plots", "mdr.__main__"]  # numba itself brings tomllib
+    heavy += ["mdr.plots", "mdr.__main__", "numba"]
     code = f"""
 import sys, mdr
 assert not [name for name in {heavy!r} if name in sys.modules]
-import mdr.plots
+from contextlib import suppress
 from mdr.__main__ import main
+for words in (["--help"], ["help"], ["velcity"]):
+    with suppress(SystemExit):
+        main(words)
+assert "numba" not in sys.modules
+import mdr.plots
 main(["velocity", {str(ROOT / "docs" / "example.toml")!r}])
 assert "matplotlib" not in sys.modules
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_what_type_checkers_see_is_what_is_imported_later():
+    tree = ast.parse((ROOT / "mdr" / "__init__.py").read_text(encoding="utf-8"))
+    (block,) = (one for one in tree.body if isinstance(one, ast.If))
+    seen = {alias.name: f"{one.module}.{alias.name}" for one in block.body for alias in one.names}
+    later = {name: f"{home}.{name}" for home, names in mdr._LATER.items() for name in names}
+    assert {**seen, "laws": "mdr.closed_forms.laws.laws", "studies": "mdr.studies.studies"} == later
+    for name in later:
+        assert getattr(mdr, name) is not None
+    with pytest.raises(AttributeError, match="module 'mdr' has no attribute 'slid'"):
+        _ = mdr.slid
 
 
 def readme_case():

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 import mdr
+from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.tools.arrays import Array
 
 TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  #: bracket of a measurement, and second order in its step, over v_c
@@ -19,7 +20,7 @@ class Point:
     """One contact and its measured critical velocity; ratios are NaN where none was found."""
 
     case: mdr.SlidingContact
-    found: mdr.friction.measured_velocity.MeasuredVelocity
+    found: MeasuredVelocity
     where: str  #: the contact in words
     shape: str = ""  #: this and the next are what points are told by where a claim varies them
     alpha: float = np.nan

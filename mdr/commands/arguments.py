@@ -10,10 +10,8 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
 import mdr
-from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.commands.output import WrongInput
 from mdr.files.toml_text import StandardInput
-from mdr.march.periodic.steady import BUDGET, accuracy_of
 from mdr.tools.notation import UNITS, is_number, number_in, parted, scale_of, value_in
 
 OF_V_C, OF_MU_0 = "v_c", "mu_0"  #: units of multiples
@@ -65,12 +63,10 @@ def whole_number(least: int, most: int = 100_000) -> Callable[[str], int]:
     return read_as(f"a whole number from {least} to {most}", read)
 
 
-def no_options(_: argparse.ArgumentParser) -> None:
-    """None, of a command that takes a file alone, or nothing."""
-
-
 def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     """How accurate an answer is to be."""
+    from mdr.march.periodic.steady import BUDGET, accuracy_of
+
     read = read_as("a number from 1e-8 to 1e-3", lambda text: accuracy_of(value_in("accuracy", text, "-")))
     meaning = f"{of_what}, 1e-8 to 1e-3 (default: {BUDGET:g})"
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
@@ -167,6 +163,8 @@ def add_velocity(command: argparse.ArgumentParser) -> None:
 
 def stand_in_of_v_c(case: mdr.SlidingContact) -> str:
     """What stands in the place of v_c in a curve's velocities, in a sentence; empty where v_c does."""
+    from mdr.closed_forms.critical_velocity import velocity_scale
+
     wrong = _no_scale(mdr.critical_velocity(case))
     return wrong and f"{wrong}: velocities are multiples of {velocity_scale(case):.6g} m/s in its place"
 

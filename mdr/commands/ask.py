@@ -55,7 +55,7 @@ def tolerance(args: argparse.Namespace, asked: Said) -> int:
     make_folder(args)
     with refusals():
         found = mdr.tolerance(asked.case, args.v_0.on(asked.case), args.by, args.fields, held=asked.held)
-    write_found(args, found.plot, found.table(), str(found))
     values = picked(found, "v_0", "by", "base_cof", "base_v_c", "inputs", "cof", "v_c", "warnings")
     answer(args, values, str(found), asked.case)
+    write_found(args, found.plot, found.table(), str(found))
     return Exit.FAILED if found.warnings else Exit.DONE

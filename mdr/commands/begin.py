@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from dataclasses import fields
 from typing import Any
 
-from mdr.commands.output import answer, refusals
+from mdr.commands.output import WrongInput, answer, refusals
 from mdr.files.case_files import nameable
 from mdr.files.examples import MOTIONS, PULLS, SHAKES, STILL, example, example_file
 from mdr.tools.fields import facts_of
+from mdr.tools.messages import offer
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -25,9 +26,22 @@ def add_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(f"--{option}", metavar=kind, default=usual, help=f"{meaning} (default: {usual})")
 
 
+def add_options_of_shapes(command: argparse.ArgumentParser) -> None:
+    """Which of them."""
+    command.add_argument("name", nargs="*", help="these alone, such as Cone or Prony (default: all)")
+
+
 def shapes(args: argparse.Namespace, _: None) -> int:
     """Print the shapes, materials, motions and pulls with their keys, units and meanings."""
-    tables = {table: {name: _told(one) for name, one in records.items()} for table, records in nameable().items()}
+    known = [name for records in nameable().values() for name in records]
+    for one in args.name:
+        if one not in known:
+            raise WrongInput(f"{one!r} is no shape, material or motion; {offer(one, known)}")
+    tables = {
+        table: told
+        for table, records in nameable().items()
+        if (told := {name: _told(one) for name, one in records.items() if not args.name or name in args.name})
+    }
     return answer(args, tables, "\n".join(_lines(tables)))
 
 

@@ -37,7 +37,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def completion(args: argparse.Namespace, _: None) -> int:
     """Print the script, made of the options that the parser knows."""
-    commands = next(one.choices for one in args.top._actions if isinstance(one, argparse._SubParsersAction))
+    found = next(one.choices for one in args.top._actions if isinstance(one, argparse._SubParsersAction))
+    commands = {name: command.fill() for name, command in found.items()}
     lines = _fish(commands) if args.shell == "fish" else _bash({**commands, "": args.top}, "|".join(commands))
     print((ZSH if args.shell == "zsh" else "") + "\n".join(lines))
     return Exit.DONE

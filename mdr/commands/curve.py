@@ -35,13 +35,13 @@ def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     velocities = _velocities(args, case)
     make_folder(args)
     found = mdr.cof_curve(case, velocities, accuracy=args.accuracy)
-    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     ends = ends_of(case)
     back = ["v_c_back"] if case.is_shaken else []
     values = picked(found, "v_c", "mu_0", "static_cof", *back) | values_of(ends)
     values |= picked(found, "v_0", "cof", "cof_y", "cof_error", "settled", "stick_share", "why")
     text = "\n".join([*_lines(found, equation_of(case)[0]), *([text_of(ends)] if ends else [])])
     answer(args, values, text, case)
+    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     loose = [why for why, settled in zip(found.why, found.settled, strict=False) if not settled]
     unsettled = found.settled.size - int(found.settled.sum())
     if not unsettled:

@@ -13,7 +13,7 @@ from mdr.files.examples import example
 
 INSTALL = (
     "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
-    "python3 -m pip --python .venv install -e '.[explore]'"
+    ".venv/bin/pip install -e '.[explore]'"
 )
 
 

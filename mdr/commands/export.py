@@ -10,11 +10,10 @@ from textwrap import shorten
 import mdr
 from mdr.commands.arguments import read_as, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain
-from mdr.commands.written import require_free
+from mdr.commands.written import require_free, write
 from mdr.element.c_header import header
 from mdr.element.fmu import NoCompiler, fmu, sources
 from mdr.normal.springs import MIN_SPRINGS
-from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import positive
 from mdr.tools.notation import value_in
 
@@ -50,12 +49,12 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         texts = sources(element, name, told(args, case))
     written = [path]
     try:
-        write_whole(path, texts[path.name].encode() if path.suffix == ".h" else fmu(texts, name))
+        write(path, texts[path.name].encode() if path.suffix == ".h" else fmu(texts, name))
     except NoCompiler as fault:
         written = [folder / file for file in texts]
         require_free(written)
         for file, text in texts.items():
-            write_whole(folder / file, text.encode())
+            write(folder / file, text.encode())
         return complain(f"{path}: {fault}\nwritten are the sources: {', '.join(map(str, written))}", Exit.FAILED)
     values = {"file": str(path), "u_z_max": u_z_max, "n_springs": element.n_springs, "n_state": element.n_state}
     size = f"{element.n_springs} springs, {element.n_state} numbers of state"

@@ -8,7 +8,7 @@ from typing import Any
 import mdr
 from mdr.case.paths import facts_at
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file
-from mdr.commands.output import answer, picked, refusals
+from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.fit import Fit
 from mdr.given.case_file import Said
@@ -39,8 +39,9 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     with refusals():
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
         found = mdr.fit(asked.case, data, args.free, **knobs)
+    answer(args, _told(found), str(found), found.case)
     write_found(args, found.plot, mdr.write_case(found.case), str(found))
-    return answer(args, _told(found), str(found), found.case)
+    return Exit.DONE
 
 
 def _told(found: Fit) -> dict[str, Any]:

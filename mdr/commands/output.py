@@ -29,6 +29,10 @@ class WrongInput(Exception):
     """What the user gave cannot be used."""
 
 
+class NotWritten(Exception):
+    """A file that could not be written, and why."""
+
+
 @contextmanager
 def refusals() -> Iterator[None]:
     """What is refused inside with a ValueError is wrong input."""
@@ -69,12 +73,28 @@ def answer(args: argparse.Namespace, values: dict[str, Any], text: str, case: md
         head = {"version": mdr.__version__, "command": args.command, "made_with": versions()}
         head |= {"case": mdr.write_case(case)} if case is not None else {}
         text = json.dumps(_plain({**head, **values}), indent=1, allow_nan=False, ensure_ascii=False)
-    print(text, flush=True)
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as fault:
+        raise NotWritten(f"standard output: cannot be written: {fault.strerror}") from None
     return Exit.DONE
+
+
+#: ways out as messages tell them in Python, and at the command line
+WAYS = {
+    "full_slip_critical_velocity(case)": "the row full slip of `mdr velocity`",
+    "too great for critical_velocity(case)": "too great for the closed form",
+    'give hold="load"': 'give hold = "load" in [oscillation]',
+    "holding_band(case), or cof_curve(case, [0])": "`mdr velocity`, or `mdr curve case.toml --v-0 0`",
+}
 
 
 def complain(message: str, status: int = Exit.FAILED) -> int:
     """A message on standard error, each line behind the program's name; returns the status."""
+    for python, shell in WAYS.items():
+        message = message.replace(python, shell)
     for line in message.splitlines() or [""]:
         print(line if line.startswith(" ") else f"mdr: {line}", file=sys.stderr)
     return status

@@ -1,16 +1,20 @@
-"""`mdr record`: friction under a recorded motion, as a CSV file and a figure."""
+"""`mdr record`: friction under a recorded motion, as a CSV file and a figure. `mdr motion`: the periodic motion that
+an accelerometer recorded, as a table of a case file.
+"""
 
 from __future__ import annotations
 
 import argparse
-from dataclasses import asdict
+import math
+from dataclasses import asdict, replace
 from typing import Any
 
 import mdr
 from mdr.case.displacement import inner_part
-from mdr.commands.arguments import add_reading, path_of, read_as, read_file, whole_number
-from mdr.commands.output import WrongInput, answer, picked
+from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file, velocity, whole_number
+from mdr.commands.output import WrongInput, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
+from mdr.files.examples import example
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
@@ -28,6 +32,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     above = "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; one of its"
     above += " periods at either end of the record is uncertain and left out"
     command.add_argument("--high-pass", metavar="5Hz", type=frequency, help=above)
+    pulled = "velocity of a steady pull along x: 10mm/s, 0.5v_c; added to what a_x tells, in the place of u_x"
+    command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
     size = whole_number(2 * MIN_SPRINGS)
     command.add_argument("--n-springs", metavar="n", type=size, help="springs (default: 256)")
     add_reading(command, of_time=True)
@@ -40,7 +46,7 @@ def record(args: argparse.Namespace, _: None) -> int:
     make_folder(args)
     recorded = read_file(mdr.read_record, args.motion, args)
     try:
-        motion = with_displacements(recorded, args.high_pass, case)
+        motion = with_displacements(recorded, args.high_pass, case, args.v_0 and args.v_0.on(case))
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {fault}") from None
@@ -54,9 +60,15 @@ def record(args: argparse.Namespace, _: None) -> int:
     return answer(args, values, f"{found}{ends + 'uncertain' if kept < whole else ''}", case)
 
 
-def with_displacements(record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact) -> dict[str, Any]:
-    """The record with positions and depths [m] in the place of accelerations [m/s²], without the ends of these."""
+def with_displacements(
+    record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact, v_0: float | None = None
+) -> dict[str, Any]:
+    """The record with positions and depths [m] in the place of accelerations [m/s²], without the ends of these, and
+    with the way of a steady pull at v_0 [m/s].
+    """
     motion = {**record}
+    if v_0 is not None and "u_x" in motion:
+        raise ValueError("the header names u_x, which is the whole way along the pull: leave --v-0 out")
     for axis in "xyz":
         a, u = f"a_{axis}", f"u_{axis}"
         if a not in motion:
@@ -68,11 +80,47 @@ def with_displacements(record: dict[str, Array], high_pass: float | None, case: 
         motion[u] = mdr.displacement_of(motion["t"], motion.pop(a), high_pass=high_pass)
         if axis == "z":
             motion[u] += mdr.resolved(case).working_depth
+    if v_0 is not None:
+        motion["u_x"] = motion.get("u_x", 0.0) + v_0 * (motion["t"] - motion["t"][0])
     if "u_x" not in motion:
         raise ValueError(
-            "the header names no u_x, which no accelerometer shows; write t [s], u_x [um], u_z [um] or a_z [g]"
+            "the header names no u_x, which no accelerometer shows; give the velocity of the pull, --v-0 10mm/s, or "
+            "write t [s], u_x [um], u_z [um] or a_z [g]"
         )
-    if motion.keys() == record.keys():
+    if not any(name.startswith("a_") for name in record):
         return motion
     inner = inner_part(motion["t"], positive("high_pass", high_pass))
     return {name: values[inner] for name, values in motion.items()}
+
+
+def add_options_of_motion(command: argparse.ArgumentParser) -> None:
+    """The record, the depth that it does not tell, and its frequency."""
+    record = "what an accelerometer recorded over three periods or more: columns t [s], a_z [g]; - is standard input"
+    command.add_argument("motion", metavar="shaker.csv", type=path_of, help=record)
+    command.usage = "%(prog)s shaker.csv --u-z0 depth [options] > table.toml"
+    depth = plain_number("m", "a depth such as 20um")
+    command.add_argument("--u-z0", metavar="depth", type=depth, required=True, help="mean depth: 20um")
+    known = plain_number("Hz", "a frequency such as 80Hz")
+    command.add_argument("--frequency", metavar="80Hz", type=known, help="fundamental (default: it is found)")
+    add_reading(command, of_time=True)
+    command.epilog = "The table [oscillation] goes into a case file. Positive a_z points into the half-space."
+
+
+def motion(args: argparse.Namespace, _: None) -> int:
+    """Print the table [oscillation] of the recorded motion."""
+    with refusals():
+        record = read_file(mdr.read_record, args.motion, args)
+        if "a_z" not in record:
+            raise WrongInput(f"{args.motion}: the header names no a_z, the acceleration into the half-space")
+        t, a_z = record["t"], record["a_z"]
+        found = mdr.PeriodicMotion.from_acceleration(t, a_z, u_z0=args.u_z0, frequency=args.frequency)
+    rest = a_z - a_z.mean() - found.u_z_ddot(t)
+    values = {"omega": found.omega, "du_z": found.cycle.du_z, "u_z0": args.u_z0, "cos": found.cos, "sin": found.sin}
+    values["left_out"] = float(rest.std() / a_z.std())
+    table = next(
+        one
+        for one in mdr.write_case(replace(example(), oscillation=found)).split("\n\n")
+        if one.startswith("[oscillation]")
+    )
+    head = f"# {found.omega / (2 * math.pi):.6g} Hz, {len(found.cos)} harmonics, amplitude {found.cycle.du_z:.6g} m; "
+    return answer(args, values, f"{head}{values['left_out']:.2g} of a_z (rms) left out\n{table.strip()}")

@@ -13,11 +13,10 @@ import mdr
 from mdr.commands.arguments import add_accuracy, add_velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, velocity_text
 from mdr.commands.velocity import equation_of
-from mdr.commands.written import add_output, made_by, make_folder, require_free, write_found
+from mdr.commands.written import add_output, made_by, make_folder, require_free, write_found, writing
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.half_space.friction import Settings
 from mdr.half_space.run import LEAST, PERIODS
-from mdr.plots.animation import animate_springs
 
 
 def add_options_of_run(command: argparse.ArgumentParser) -> None:
@@ -39,6 +38,8 @@ def add_options_of_run(command: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     """Run, write and print; status 1 if the run did not settle."""
+    from mdr.plots.animation import animate_springs
+
     v_0 = _velocity(args, case, "`mdr velocity` has the limit at rest")
     if args.animate is not None:
         if args.animate.suffix != ".gif":
@@ -46,8 +47,6 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         require_free([args.animate])
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
     found = mdr.slide(case, v_0, record=1, **knobs)
-    if args.animate is not None:
-        animate_springs(found, args.animate, comment=made_by(args))
     v_c, spent = mdr.critical_velocity(case, -1 if v_0 < 0 else 1), found.energy_balance
     text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
     values = picked(
@@ -55,7 +54,11 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         "mean_F_x", "mean_F_y", "mean_F_z", "n_springs", "steps_per_period", "n_periods",
     )  # fmt: skip
     balance = {**asdict(spent), "residual": spent.residual}
-    return _end(args, found, {"v_c": v_c, **values, "energy_balance": balance}, text, case)
+    status = _end(args, found, {"v_c": v_c, **values, "energy_balance": balance}, text, case)
+    if args.animate is not None:
+        with writing(args.animate):
+            animate_springs(found, args.animate, comment=made_by(args))
+    return status
 
 
 def add_options_of_half_space(command: argparse.ArgumentParser) -> None:
@@ -99,6 +102,6 @@ def _velocity(args: argparse.Namespace, case: mdr.SlidingContact, why: str) -> f
 
 def _end(args: argparse.Namespace, found: Any, values: dict[str, Any], text: str, case: mdr.SlidingContact) -> int:
     """Write and print; status 1 if the run did not settle."""
-    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     answer(args, values, text, case)
+    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     return Exit.DONE if found.settled else complain(f"the run did not settle\n  {found.why}")

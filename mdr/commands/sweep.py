@@ -9,11 +9,10 @@ from typing import Any
 import mdr
 from mdr.commands.arguments import plain_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, refusals
-from mdr.commands.written import add_output, made_by, make_folder, require_free, write_figure, write_text
+from mdr.commands.written import add_output, made_by, make_folder, require_free, write, write_figure, write_text
 from mdr.studies import Status
 from mdr.studies.formats import packed
 from mdr.studies.study_files import StudyFile
-from mdr.tools.atomic_write import write_whole
 
 FILES = ("study.nc", "study.csv", "study.png", "study.svg")
 
@@ -33,13 +32,13 @@ def sweep(args: argparse.Namespace, asked: StudyFile) -> int:
     _require_a_place(args)
     with refusals():  # of shard and chunks; the file has been read
         study = mdr.sweep(**vars(asked), store=args.store, chunk_seconds=args.chunk_seconds, shard=args.shard)
+    answer(args, _told(study), str(study))
     if args.output is not None and study.complete:
         try:
             _write(args, study)
         except KeyboardInterrupt:
             kept = f"all of it is safe in {args.store}; the same call writes it" if args.store else "nothing is kept"
             return complain(f"interrupted while the study was written; {kept}", Exit.INTERRUPTED)
-    answer(args, _told(study), str(study))
     return _end(args, study)
 
 
@@ -74,7 +73,7 @@ def _write(args: argparse.Namespace, study: mdr.Study) -> None:
         if path.suffix == ".csv":
             write_text(args, path, study.table(), "", study.case)
         else:
-            write_whole(path, packed(study, history=made_by(args)))
+            write(path, packed(study, history=made_by(args)))
     try:
         write_figure(args, files[0].with_suffix(""), study.plot)
     except ValueError as fault:

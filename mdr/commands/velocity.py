@@ -5,7 +5,10 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 import mdr
 from mdr.case.doubts import edge, frequencies
@@ -57,6 +60,9 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         told.append(told_velocity(key, solve(case), name, meaning))
         if case.is_shaken:
             told.append(told_velocity(f"{key}_back", solve(case, -1), "other way", "the same, pulled the other way"))
+    if not (case.is_shaken or case.pull.is_rigid):
+        rigid = mdr.critical_velocity(replace(case, pull=mdr.RigidPull()))
+        told.append(told_velocity("v_c_rigid", rigid, "rigid", "the same contact pulled rigidly, Eq. (1)"))
     if not case.is_shaken:
         static = mdr.static_cof(case)
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}"
@@ -89,6 +95,9 @@ def _size(known: mdr.SlidingContact) -> list[Told]:
     """The numbers by which a mistake in a case file shows: how large, how steep, how loaded, how stiff."""
     d, load = known.contact_depth, mean_normal_force(known)
     a, slope = edge(known.indenter, d)
+    deepest = float(known.indenter.contact_radius(known.u_z_max))
+    pressures = known.indenter.pressure(deepest * np.linspace(0.01, 0.99, 99), known.u_z_max, known.material.E_star)
+    peak = float(np.max(pressures))
     k_zc = float(known.indenter.stiffness(d, known.material.E_star))
     k_xc = k_zc / known.material.mindlin_ratio
     ratios = [known.pull.omega_0 / one for one in frequencies(known)]
@@ -102,6 +111,7 @@ def _size(known: mdr.SlidingContact) -> list[Told]:
         Told("contact_radius", a, "radius", f"{a:.6g} m", f"of the contact at the depth of {d:.4g} m"),
         Told("edge_slope", slope, "slope", f"{slope:.6g}", "of the shape at the edge of the contact; well below 1"),
         Told("mean_load", load, "load", f"{load:.6g} N", "mean normal force over a period"),
+        Told("peak_pressure", peak, "pressure", f"{peak:.6g} Pa", "greatest, of r = 0.01 a to 0.99 a at full depth"),
         Told("k_zc", k_zc, "k_zc", f"{k_zc:.6g} N/m", "normal stiffness of the contact"),
         Told("k_xc", k_xc, "k_xc", f"{k_xc:.6g} N/m", "tangential stiffness of the contact"),
         Told("omega_0_over_omega", ratio, "body", body, natural),

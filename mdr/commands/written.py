@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from io import BytesIO
 from pathlib import Path
+from shutil import disk_usage
 from typing import Any
 
-from mdr.commands.output import WrongInput, complain
+from mdr.commands.output import NotWritten, WrongInput, complain
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.provenance import commented, figure_metadata, versions
 
@@ -51,9 +53,27 @@ def made_by(args: argparse.Namespace) -> str:
     return f"{versions()}\n{args.command}"
 
 
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """What writes this file stands inside; where it fails, NotWritten names the file and what its disk has free."""
+    try:
+        yield
+    except OSError as fault:
+        free = ""
+        with suppress(OSError):
+            free = f"; {disk_usage(path.parent).free / 1e6:.3g} MB are free on the disk of {path.parent.resolve()}"
+        raise NotWritten(f"{path}: cannot be written: {fault.strerror or fault}{free}") from None
+
+
+def write(path: Path, data: bytes) -> None:
+    """Write or replace a file in one instant."""
+    with writing(path):
+        write_whole(path, data)
+
+
 def write_text(args: argparse.Namespace, path: Path, text: str, *head: str) -> None:
     """Write a text with versions, command and `head` before it, each line behind a #."""
-    write_whole(path, (commented(made_by(args), *head) + text).encode("utf-8"))
+    write(path, (commented(made_by(args), *head) + text).encode("utf-8"))
 
 
 def write_found(args: argparse.Namespace, draw: Callable[[], Any], text: str, *head: str) -> None:
@@ -75,4 +95,4 @@ def write_figure(args: argparse.Namespace, stem: Path, draw: Callable[[], Any]) 
         for kind in ("png", "svg"):
             drawn = BytesIO()
             figure.savefig(drawn, format=kind, dpi=150, metadata=figure_metadata(kind, args.command))
-            write_whole(stem.parent / f"{stem.name}.{kind}", drawn.getvalue())
+            write(stem.parent / f"{stem.name}.{kind}", drawn.getvalue())

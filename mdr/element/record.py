@@ -8,7 +8,7 @@ samples; and in each case once more with half of the springs. The differences es
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +26,9 @@ from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span, with_error
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SPRINGS = 256  #: where none are asked for
 STEPS_OFF = 3.0  #: times what halved steps change; of 320 odd records one was off by 1.07 times the whole bound
@@ -93,7 +96,7 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
         names = {"t": "s", "u_x": "m", "u_y": "m", "u_z": "m", "F_x": "N", "F_y": "N", "F_z": "N", "running_cof": "-"}
         return csv_text({f"{name} [{unit}]": getattr(self, name) for name, unit in names.items()})
 
-    def plot(self) -> Any:
+    def plot(self) -> Figure:
         """Draw position, forces and running COF over time.
 
         Returns

@@ -89,8 +89,8 @@ class Verdict(Printed):
         else:
             said = (
                 f"{self._use(self.measured)}. Measured in runs, v_c = {self.measured:.6g} m/s (between {found.low:.8g} "
-                f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the difference is "
-                f"{'no more' if self.holds else 'more'} than the measurement leaves open"
+                f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the formula lies "
+                f"{'inside' if self.holds else 'outside'} the measured interval"
             )
         return f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
 
@@ -109,7 +109,7 @@ class Verdict(Printed):
         if self.good:
             return f"is good to {100 * self.within:.4g} % here ({off})"
         if self.holds:  # a wide bracket, or a tolerance narrower than it
-            return f"is {off} here, no more than the measurement leaves open"
+            return f"is {off} here, inside the measured interval"
         return f"is {off} here; {instead}"
 
     def _unmeasured(self) -> str:
@@ -300,7 +300,7 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
         yield (
             "a harmonic of the normal force drives the body at its undamped natural frequency"
             if np.isfinite(case.pull.omega_0)
-            else "dashpots that touch again throw the body, which has no inertia, at unbounded velocity for an instant"
+            else "the body, which has no inertia, gets an infinite velocity for an instant when a dashpot touches again"
         )
     if not case.keeps_contact:
         yield "contact is lost in part of the period, Eq. (5)"

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from mdr.case.contact import SlidingContact
-from mdr.case.doubts import edge
+from mdr.case.doubts import edge, wavelength
 from mdr.case.in_plane import Shake
 from mdr.case.motion import ConstantLoad, LoadOscillation, Motion, NormalOscillation
 from mdr.case.paths import HOLD, SET, hold_of
@@ -17,7 +17,6 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.given.vary import contact_of, warn_of_load
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
-from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import at_rest
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance, not_negative, positive
@@ -222,12 +221,9 @@ def _held(hold: str | None, is_driven: bool) -> str | None:
 def _warn_of_waves(case: SlidingContact, density: float) -> None:
     """Warn where shear waves in the half-space are not much longer than the contact is wide."""
     known = at_rest(case)
-    width = 2 * edge(known.indenter, known.working_depth)[0]
-    stiffening = abs(complex(case.material.dynamic_modulus(case.omega))) / case.material.E_star
-    G = case.material.G_star * (2 - poisson_ratio_of(case.material.mindlin_ratio)) / 4 * stiffening
-    wavelength = 2 * math.pi / case.omega * math.sqrt(G / density)
-    if wavelength < 10 * width:
+    width, longest = 2 * edge(known.indenter, known.working_depth)[0], wavelength(known, density)
+    if longest < 10 * width:
         warn_outside(
-            f"shear waves in the half-space are about {wavelength:.3g} m long at this frequency, and the contact is "
+            f"shear waves in the half-space are about {longest:.3g} m long at this frequency, and the contact is "
             f"{width:.3g} m wide: the springs are quasi-static, which wants waves 10 times as long"
         )

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +29,9 @@ from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import time_is_over, time_limit
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span, with_error
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 PERIODS = 60  #: at most, unless they are given
 LEAST = 8  #: cells along a side, and steps of a period
@@ -101,7 +104,7 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
         forces = {"F_x [N]": self.q_x, "F_y [N]": self.q_y, "F_z [N]": self.pressure}
         return csv_text({"t [s]": self.t} | {name: cell * q.sum(axis=(1, 2)) for name, q in forces.items()})
 
-    def plot(self, instant: float | None = None) -> Any:
+    def plot(self, instant: float | None = None) -> Figure:
         """Draw the contact from above: pressure, tractions, and what sticks and slips.
 
         Parameters

@@ -17,7 +17,7 @@ from mdr.tools.csv_table import csv_text
 from mdr.tools.status import Status
 
 Study: TypeAlias = Any  #: read by attribute
-_TITLE = "Sliding friction under normal oscillation, a study by mdr"
+_TITLE = "Sliding friction of a vibrated contact, a study by mdr"
 _ONE = {"-": "1"}  #: a pure number in the file
 MEANINGS = " ".join(status.name.lower() for status in Status)
 

@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,9 @@ from mdr.tools.messages import MOST_TOLD, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.status import Status
 from mdr.tools.summary import Printed
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 
@@ -189,10 +192,10 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
         try:
             import xarray
         except ImportError:
-            raise ImportError("to_xarray needs xarray: python3 -m pip --python .venv install -e '.[xarray]'") from None
+            raise ImportError("to_xarray needs xarray: .venv/bin/pip install -e '.[xarray]'") from None
         return xarray.load_dataset(BytesIO(packed(self)), engine="scipy")
 
-    def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Any:
+    def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Figure:
         """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
 
         Parameters
@@ -255,7 +258,7 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
 
         return plot_curves(self, quantity, x, ax)
 
-    def plot_multiples(self, quantity: str, over: str, x: str | None = None, **knobs: Any) -> Any:
+    def plot_multiples(self, quantity: str, over: str, x: str | None = None, **knobs: Any) -> Figure:
         """Draw a map or a family of curves for each value of an axis; see `mdr.plots.studies.plot_multiples`.
 
         Parameters

@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+#: names in other words
+OTHER_WORDS = {
+    "ball": "Sphere", "parabola": "Paraboloid", "punch": "FlatPunch", "cylinder": "FlatPunch", "disc": "FlatPunch",
+    "disk": "FlatPunch", "rubber": "KelvinVoigt", "kelvin": "KelvinVoigt", "zener": "StandardLinearSolid", "sine":
+    "NormalOscillation", "rigid": "RigidPull", "spring": "SpringPull",
+}  # fmt: skip
 MOST_TOLD = 4  #: differences or reasons that one message tells before it counts the rest
 
 
@@ -14,11 +20,13 @@ def offer(word: str, known: Sequence[str]) -> str:
 
 
 def nearest(word: str, known: Sequence[str]) -> str | None:
-    """The known name that is spelt most like the word, or that alone begins with it."""
+    """The known name that the word stands for, that is spelt most like it, or that alone begins with it."""
     from difflib import SequenceMatcher, get_close_matches
 
     folded = {one.casefold(): one for one in known}
     word = word.casefold()[:99]
+    if OTHER_WORDS.get(word) in known:
+        return OTHER_WORDS[word]
     begun = [one for one in folded if word and one.startswith(word)]
     if len(begun) == 1:
         return folded[begun[0]]

@@ -1,6 +1,8 @@
 """The command line: what it prints, writes and returns."""
 
+import errno
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -22,6 +24,7 @@ import mdr
 from mdr.__main__ import main
 from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.files.case_files import write_case
+from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.given.case_file import parse_case, read_case
 from mdr.tools.provenance import versions
 
@@ -66,6 +69,28 @@ def test_velocity(capsys):
     assert f"Eq. (15)   {mdr.critical_velocity(read_case(EXAMPLE)):.6g} m/s" in out
     assert "alpha      0.1 " in out
     assert "loss       0.314159 " in out
+    rigid = replace(read_case(EXAMPLE), pull=mdr.RigidPull())
+    assert f"rigid      {mdr.critical_velocity(rigid):.6g} m/s  the same contact pulled rigidly, Eq. (1)" in out
+
+
+def test_the_greatest_pressure_is_that_of_hertz(capsys):
+    told, case = json_of(capsys, ["velocity", "--json", EXAMPLE]), read_case(EXAMPLE)
+    a = np.sqrt(22e-6 * case.indenter.R)
+    hertz = 2 / np.pi * case.material.E_star * a / case.indenter.R
+    assert_allclose(told["peak_pressure"], hertz * np.sqrt(1 - 0.01**2), rtol=1e-12)  # at r = 0.01 a
+    rigid = replace(case, pull=mdr.RigidPull())
+    assert told["v_c_rigid"] == mdr.critical_velocity(rigid)
+
+
+@pytest.mark.filterwarnings("always::mdr.PlausibilityWarning")
+def test_warnings_tell_the_way_of_the_command_line(capsys, tmp_path):
+    load = mdr.LoadOscillation(F_z0=1.0, dF_z=2.0, omega=314.0, m_z=0.1)
+    case = mdr.SlidingContact(mdr.Sphere(5e-3), mdr.KelvinVoigt(3e6, 0.5, 6e-4), 0.8, load)
+    (tmp_path / "case.toml").write_text(write_case(case), encoding="utf-8")
+    said = words_of(capsys, ["velocity", str(tmp_path / "case.toml")]).err
+    assert "too great for the closed form" in said
+    assert "the row full slip of `mdr velocity` takes the depth that the load brings about" in said
+    assert "(case)" not in said
 
 
 def test_velocity_for_machines(capsys, punch):
@@ -254,8 +279,8 @@ def test_every_shell_is_told_every_command_and_option(capsys):
 
 # --- measure and verdict ---
 
-FOUND = mdr.friction.measured_velocity.MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
-NOTHING = mdr.friction.measured_velocity.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+FOUND = MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree")
+NOTHING = MeasuredVelocity(None, None, None, "none", "friction stays reduced")
 
 
 class MadeUpVerdict:
@@ -346,7 +371,12 @@ WRONG = [
     *((f"curve {{punch}} --points {n}", "argument --points") for n in ("1", "9" * 5000)),
     *((f"curve {{punch}} --up-to {v}", "argument --up-to") for v in ("nan", "x", "2 mm")),
     ("curve {punch} --up-to 0", "--up-to must be above zero"),
-    ("curve {punch} --point 3", "unrecognized arguments: --point"),
+    ("curve {punch} --point 3", "--point is no option; did you mean --points?"),
+    ("run {punch} --v0 1mm/s", "--v0 is no option; did you mean --v-0?"),
+    ("--jso velocity {punch}", "--jso is no option; did you mean --json?"),
+    ("velcity {punch}", "'velcity' is no command; did you mean velocity?"),
+    ("shapes Coen", "'Coen' is no shape, material or motion; did you mean Cone?"),
+    ("case --example ball", "did you mean Sphere?"),
     ("curve", "the following arguments are required"),
     *((f"verdict {{punch}} '--within={v}'", f"argument --within: {NO_SHARE}, such as 1% or 0.01, got '{v}'")
       for v in ("0", "-0.01", "-1%", "nan", "inf", "1", "100%", "nan%", "1%%", "%", "", "one", "0,01")),
@@ -379,7 +409,7 @@ WRONG = [
       for one, words in (("store", "store"), ("./store/study.nc", "store/study.nc"))),
     ("sweep {study} --json --shard 1/2", "mdr: a shard needs a store"),
     ("sweep {study} --store store --shard 3/2", "mdr: shard must be k/n"),
-    ("'no such'", "invalid choice: 'no such'"),
+    ("'no such'", "'no such' is no command; there are velocity, run, "),
     *((nothing, word) for nothing in ("", "--json") for word in ("velocity", "verdict")),  # the help
 ]  # fmt: skip
 
@@ -405,8 +435,10 @@ def test_what_cannot_be_asked_is_status_2_and_found_before_any_work(
 
 
 @pytest.mark.parametrize(
-    ("line", "words"), [("--version", f"mdr {mdr.__version__}\n"), ("verdict --help", "(default: 1%)")]
-)
+    ("line", "words"),
+    [("--version", f"mdr {mdr.__version__}\n"), ("verdict --help", "(default: 1%)"), ("help", "half-space"),
+     ("help verdict", "(default: 1%)"), ("run --help", "`mdr case > case.toml` makes one")],
+)  # fmt: skip
 def test_help_and_version_are_no_faults(capsys, line, words):
     with pytest.raises(SystemExit) as end:
         main(line.split())
@@ -422,6 +454,28 @@ def test_a_wrong_file_is_status_2_with_every_fault(capsys, tmp_path):
     assert out == ""
     assert len(err.splitlines()) == 5
     assert all(line.startswith(f"mdr: {path}: ") for line in err.splitlines())
+
+
+@pytest.mark.parametrize("command", [["curve", "--points", "2"], ["tolerance", "--v-0", "1mm/s", "--fields", "mu_0"]])
+def test_a_full_disk_names_the_file_and_its_disk_and_costs_no_result(capsys, punch, tmp_path, monkeypatch, command):
+    def full(path, data):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr("mdr.cof_curve", made_up_curve)
+    monkeypatch.setattr("mdr.commands.written.write_whole", full)
+    out, err = words_of(capsys, [command[0], punch, *command[1:], "-o", str(tmp_path / "out")], 1)
+    assert "0.3" in out
+    file = tmp_path / "out" / f"{command[0]}.csv"
+    assert re.fullmatch(rf"mdr: {file}: cannot be written: No space .*; .* MB are free on the disk of .*\n", err)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+def test_a_full_disk_under_standard_output_is_not_a_fault_of_the_case():
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "mdr", "velocity", EXAMPLE]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 1
+    assert done.stderr == "mdr: standard output: cannot be written: No space left on device\n"
 
 
 def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
@@ -472,8 +526,10 @@ def test_a_terminal_that_lacks_a_letter_still_shows_the_rest(tmp_path):
 def test_shapes_names_all_that_a_file_can_name(capsys):
     assert main(["shapes"]) == 0
     shown = capsys.readouterr().out
-    for name in ("[indenter]", "Cone", "[material]", "Prony", "LoadOscillation", "[pull]", "k_x"):
+    for name in ("[indenter]", "Cone", "Sphere", "[material]", "Prony", "LoadOscillation", "[pull]", "k_x"):
         assert name in shown
+    assert main(["shapes", "Cone"]) == 0
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == ["[indenter]", "Cone", "theta"]
     told = json_of(capsys, ["shapes", "--json"])
     assert told["indenter"]["Cone"]["keys"]["theta"] == {"unit": "rad", "meaning": "angle between flank and plane"}
     assert all(one["is"] for table in ("indenter", "material", "oscillation") for one in told[table].values())

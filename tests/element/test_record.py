@@ -197,6 +197,42 @@ def test_the_command_integrates_accelerations(tmp_path, capsys):
         assert words in "".join(capsys.readouterr())
 
 
+def test_the_pull_that_no_accelerometer_shows_is_given(tmp_path, capsys):
+    """An accelerometer on the shaker saw a_z alone, above 5 Hz; the slide moves at 10 mm/s."""
+    t = np.arange(4001) * 2.5e-4
+    z = 4e-6 * np.cos(2 * np.pi * 80 * t)
+    line = written(tmp_path, csv_text({"t [s]": t, "a_z [m/s²]": -((2 * np.pi * 80) ** 2) * z}))
+    line += ["--high-pass", "5Hz", "--n-springs", "64"]
+    assert main(line) == 2
+    assert "give the velocity of the pull, --v-0 10mm/s" in capsys.readouterr().err
+    assert main([*line, "--v-0", "10mm/s", "--json"]) == 0
+    printed, inner = json.loads(capsys.readouterr().out), slice(800, 3201)
+    found = mdr.slide_record(BALL, ELASTIC, MU_0, t[inner], 0.01 * t[inner], u_z=20e-6 + z[inner], n_springs=64)
+    assert_allclose(printed["cof"], found.cof, rtol=1e-5)  # (5/80)^8 of the high-pass, and its ends
+    (tmp_path / "motion.csv").write_text("t [s], u_x [um], u_z [um]\n0, 0, 20\n1, 1, 20\n")
+    assert main([*line[:3], "--v-0", "10mm/s"]) == 2
+    assert "u_x, which is the whole way along the pull: leave --v-0 out" in capsys.readouterr().err
+
+
+def test_a_recorded_motion_is_a_table_of_a_case_file(tmp_path, capsys):
+    t = np.arange(0, 1, 2.5e-4)
+    a = (2 * np.pi * 80) ** 2 * (-4e-6 * np.cos(2 * np.pi * 80 * t) - 9e-6 * np.sin(4 * np.pi * 80 * t))
+    path = tmp_path / "shaker.csv"
+    path.write_text(csv_text({"t [ms]": 1e3 * t, "a_z [g]": a / 9.80665}))
+    assert main(["motion", str(path), "--u-z0", "20um"]) == 0
+    table = capsys.readouterr().out
+    assert table.startswith("# 80 Hz, 2 harmonics, amplitude ")
+    case = mdr.parse_case(mdr.write_case(mdr.read_case(written(tmp_path, "")[2])).split("[oscillation]")[0] + table)
+    assert_allclose(case.oscillation.cos, [4e-6, 0], atol=1e-12)  # six digits of the CSV
+    assert_allclose(case.oscillation.sin, [0, 9e-6 / 4], atol=1e-12)
+    assert_allclose([case.oscillation.u_z0, case.omega], [20e-6, 2 * np.pi * 80], rtol=1e-6)
+    assert main(["motion", str(path), "--u-z0", "20um", "--frequency", "80Hz", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["left_out"] < 1e-4
+    path.write_text(csv_text({"t [s]": t, "a_x [g]": a}))
+    assert main(["motion", str(path), "--u-z0", "20um"]) == 2
+    assert "names no a_z" in capsys.readouterr().err
+
+
 def test_a_backend_that_matplotlib_lacks_is_no_fault_of_the_case(tmp_path):
     line = written(tmp_path, "t [ms], u_x [um], u_z [um]\n0,0,20\n1,1,20\n2,0,20\n")
     command = [sys.executable, "-m", "mdr", *line, "--n-springs", "32", "-o", str(tmp_path / "out")]

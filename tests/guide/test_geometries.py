@@ -67,6 +67,12 @@ def test_figure_is_a_figure_and_leaves_no_style_behind(name):
     plt.close(fig)
 
 
+@pytest.mark.parametrize("name", sorted({*NAMES} - {"sphere", "hyperboloid"}))  # far too steep, on purpose
+def test_no_contact_of_a_script_is_unlikely(name):
+    cases = [one for one in vars(script(name)).values() if isinstance(one, mdr.SlidingContact)]
+    assert [said for case in cases for said in mdr.plausibility(case)] == []
+
+
 def test_flat_punch_has_its_friction_back_above_v_c_and_loses_it_all_where_contact_is_lost():
     s = script("flat_punch")
     for curve in s.curves:

@@ -11,6 +11,8 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.case.doubts import doubts_of, edge
 from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example
+from mdr.normal.resolved import with_depth
+from mdr.tools.fields import fields_of
 
 USUAL = mdr.read_case(Path(__file__).parents[2] / "docs/example.toml")
 SOFT = mdr.KelvinVoigt(E=3.0, nu=0.5, tau=1e-3)  # 3 for 3 MPa
@@ -22,10 +24,46 @@ ABSURD = {
     "a punch pressed two radii deep": ({"indenter": mdr.FlatPunch(a=1e-5)}, "2 times the radius"),
     "du_z and u_z0 swapped": ({"oscillation": mdr.NormalOscillation(2e-6, 20e-6, USUAL.omega)}, "are the two swapped"),
     "friction in per cent": ({"mu_0": 50.0}, "percentage"),
-    "E = 3 for 3 MPa": ({"material": SOFT}, "modulus in MPa"),
-    "the same under a load": (
-        {"material": SOFT, "oscillation": mdr.LoadOscillation(0.03, 0.003, USUAL.omega, 1e-6)},
+    "E = 3 for 3 MPa": ({"material": SOFT}, "softer than a gel: is a modulus in MPa"),
+    "E = 210e12 for 210 GPa": ({"material": mdr.Elastic(2.1e14, 0.3)}, "stiffer than diamond"),
+    "E in kPa": ({"material": mdr.Elastic(2e3, 0.5)}, "modulus in MPa, or k_x"),
+    "a load that the modulus does not bear": (
+        {"material": mdr.Elastic(2e3, 0.5), "oscillation": mdr.LoadOscillation(0.2, 0.02, USUAL.omega, 1e-6)},
         "slope",
+    ),
+    "R = 3 for 3 mm": ({"indenter": mdr.Sphere(R=3.0)}, "indenter: R = 3 m is 1 m or more: is it in mm"),
+    "a steel ball pressed in by its radius": (
+        {"indenter": mdr.Sphere(1e-4), "material": mdr.Elastic(2.1e11, 0.3), "pull": mdr.RigidPull()},
+        "no solid but rubber bears that",
+    ),
+    "omega = 20e3 for 20 kHz": (
+        {"oscillation": mdr.NormalOscillation(20e-6, 2e-6, 20e3)},
+        "oscillation: omega = 20000 rad/s is a round number, and 3183.1 Hz is none: was a frequency of 20000 Hz meant",
+    ),
+    "an amplitude below an atom": (
+        {"oscillation": mdr.NormalOscillation(20e-6, 2e-12, USUAL.omega)},
+        "oscillation: du_z = 2e-12 m is below the size of an atom",
+    ),
+    "a load in mN": (
+        {"oscillation": mdr.LoadOscillation(1e-9, 1e-10, USUAL.omega), "material": mdr.Elastic(2.1e11, 0.3)},
+        "less than the size of an atom",
+    ),
+    "an amplitude too small": ({"oscillation": mdr.NormalOscillation(20e-6, 5e-9, USUAL.omega)}, "no effect"),
+    "tau in ks": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-6)}, "next to no effect: is tau"),
+    "a shake too small": ({"shake": mdr.InPlaneOscillation(USUAL.omega, du_x=1e-9)}, "of the shake is 6.67e-05"),
+    "an acceleration of which a tool breaks": (
+        {"oscillation": mdr.NormalOscillation(20e-6, 2e-6, 4.01e7), "material": mdr.Elastic(2.1e11, 0.3)},
+        r"the acceleration of the depth is 3.28e\+08 g",
+    ),
+    "waves in the contact": (
+        {"oscillation": mdr.NormalOscillation(20e-6, 2e-6, 4.01e5), "material": mdr.Elastic(3e6, 0.5)},
+        "shear waves in the half-space are at most 0.000495 m long at this frequency",
+    ),
+    "friction in kilo": ({"mu_0": 5e-4}, "that of a joint"),
+    "a body in grams": ({"pull": mdr.SpringPull(k_x=2e4, m=100.0)}, "the weight of the body, 980.7 N, is 2.9"),
+    "a damper of N s/mm": (
+        {"pull": mdr.SpringPull(2e4, 0.1, 4e3)},
+        "damping ratio of the body is 44",
     ),
     "tau in ms": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1.0)}, "tau in ms"),
     "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=1e-3, m=0.1)}, "k_x in N/mm"),
@@ -45,6 +83,111 @@ def test_an_absurd_contact_is_warned_of_and_computed(what):
         assert mdr.critical_velocity(case) > 0
     assert {one.filename for one in said} == {__file__}  # the user's line
     assert tuple(str(one.message) for one in said) == mdr.plausibility(case)
+
+
+def ball(R, material, mu_0, motion, *more):
+    return mdr.SlidingContact(mdr.Paraboloid(R), material, mu_0, motion, *more)
+
+
+RADII = np.linspace(0, 3e-3, 31)
+SOUND = {
+    "docs": USUAL,
+    "cone": mdr.SlidingContact(
+        mdr.Cone(0.0127), mdr.Elastic(3e6, 0.5), 0.4, mdr.NormalOscillation(30e-6, 10e-6, 502.7)
+    ),
+    "steel": ball(
+        5e-3, mdr.Elastic(2.1e11, 0.3), 0.15, mdr.LoadOscillation(20.0, 5.0, 125663.7), mdr.SpringPull(1e5, 0.2)
+    ),
+    "punch": mdr.SlidingContact(
+        mdr.FlatPunch(2e-3), mdr.KelvinVoigt(2e9, 0.4, 1e-5), 0.3, mdr.NormalOscillation(1e-6, 2e-7, 3141.6)
+    ),
+    "shaken": ball(
+        1e-2, mdr.KelvinVoigt(2e6, 0.5, 2e-4), 0.6, mdr.ConstantDepth(50e-6), mdr.RigidPull(),
+        mdr.InPlaneOscillation(628.3, 20e-6),
+    ),
+    "profile": mdr.SlidingContact(
+        mdr.SampledProfile(RADII, RADII**2 / 0.016), mdr.KelvinVoigt(3e6, 0.5, 1e-3), 0.5,
+        mdr.NormalOscillation(20e-6, 5e-6, 188.5),
+    ),
+    "gel": ball(8e-3, mdr.KelvinVoigt(4e4, 0.5, 1e-3), 0.05, mdr.NormalOscillation(60e-6, 20e-6, 125.7)),
+}  # fmt: skip
+#: what is looked at: E, k_x, m and a load a thousand times off are most often another contact that may be meant
+SCALED = ("mu_0", "R", "a", "r", "tau", "u_z0", "du_z", "omega", "dF_z", "du_x")
+
+
+def scaled(case, part, key, factor):
+    """The case with one number of it, or a profile, times the factor."""
+    record = getattr(case, part) if part else case
+    keys = ("r", "f") if key == "r" else (key,)
+    changed = replace(record, **{one: tuple(factor * np.atleast_1d(getattr(record, one))) if key == "r"
+                                 else factor * getattr(record, one) for one in keys})  # fmt: skip
+    return replace(case, **{part: changed}) if part else changed
+
+
+def slips():
+    """Eighty slips: numbers a thousand times too great or too small, and frequencies given for angular ones."""
+    for name, case in SOUND.items():
+        parts = {part: record for part in ("indenter", "material", "oscillation", "shake")
+                 if (record := getattr(case, part)) is not None}  # fmt: skip
+        for part, record in {"": case, **parts}.items():
+            for key in SCALED:
+                if key in fields_of(record) and getattr(record, key):
+                    yield from ((f"{name}: {key} times {factor:g}", case, part, key, factor) for factor in (1e3, 1e-3))
+    for hertz in (4e3, 20e3, 35e3, 40e3):
+        yield f"omega = {hertz:g}", SOUND["steel"], "oscillation", "omega", hertz / SOUND["steel"].omega
+
+
+def test_of_eighty_factors_of_a_thousand_seventy_five_are_seen():
+    missed, seen = [], 0
+    for what, case, *changed in slips():
+        try:
+            told = mdr.plausibility(scaled(case, *changed))
+        except ValueError:  # refused outright
+            told = ("refused",)
+        seen += bool(told)
+        missed += [] if told else [what]
+    assert seen + len(missed) == 80
+    assert missed == [
+        "cone: omega times 0.001", "steel: omega times 0.001", "steel: dF_z times 0.001", "shaken: u_z0 times 0.001",
+        "shaken: du_x times 1000",
+    ]  # fmt: skip
+
+
+def sensible(rng):
+    """A contact such as is built: of rubber, a polymer or metal, whose waves are long and whose body is no wreck."""
+    while True:
+        kind = rng.integers(3)
+        E = 10 ** rng.uniform(*((4.5, 7.5), (8.5, 9.7), (10.7, 11.6))[kind])
+        slope = 10 ** rng.uniform(-2.5, (-0.5, -1.0, -1.6)[kind])
+        a, alpha, mu_0 = 10 ** rng.uniform(-5, -2.3), 10 ** rng.uniform(-2, 0.3), 10 ** rng.uniform(-1.7, 0.2)
+        omega, nu = 2 * np.pi * 10 ** rng.uniform(0.7, 4.6), (0.5, 0.4, 0.3)[kind]
+        T = rng.choice([0.0, 10 ** rng.uniform(-2, 0.3)])
+        material = mdr.KelvinVoigt(E, nu, T / omega) if T else mdr.Elastic(E, nu)
+        shape = (mdr.Paraboloid(a / slope), mdr.Cone(np.arctan(slope)), mdr.FlatPunch(a))[rng.integers(3)]
+        depth = float(shape.profile_1d(a)) if not isinstance(shape, mdr.FlatPunch) else slope * a
+        waves = 2 * np.pi / omega * np.sqrt(E / 3e3)
+        g = alpha * depth * omega**2 / 9.81
+        if waves < 20 * a or g > 1e5 or a / slope > 0.5 or depth * min(alpha, 1) < 1e-9:
+            continue
+        force, stiffness = float(shape.force(depth, material.E_star)), float(shape.stiffness(depth, material.G_star))
+        pull = mdr.RigidPull()
+        if rng.integers(2):
+            k_x, m = stiffness * 10 ** rng.uniform(-3, 2), 0.0
+            if rng.integers(2):
+                m = k_x / (omega * 10 ** rng.uniform(-1.5, 1)) ** 2
+            if 9.81 * m > 1e3 * force:
+                continue
+            pull = mdr.SpringPull(k_x, m, 2 * 10 ** rng.uniform(-2, 0) * np.sqrt(k_x * m))
+        motion = mdr.NormalOscillation(depth, alpha * depth, omega)
+        if alpha < 0.9 and rng.integers(2):
+            motion = mdr.LoadOscillation(force, min(alpha, 0.5) * force, omega)
+        return mdr.SlidingContact(shape, material, mu_0, motion, pull)
+
+
+def test_nothing_is_said_of_five_hundred_sensible_contacts():
+    rng = np.random.default_rng(1)
+    cases = [sensible(rng) for _ in range(500)]
+    assert [(case, said) for case in cases if (said := doubts_of(with_depth(case, moving=False)))] == []
 
 
 def test_an_unstable_mass_under_its_load_is_warned_of_where_its_depth_is_asked_for():

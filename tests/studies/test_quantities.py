@@ -9,6 +9,7 @@ from grids import BODY, COARSE, RIGID, depth
 from numpy.testing import assert_array_equal
 
 import mdr
+from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.normal.normal_force import mean_normal_force
 from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
 
@@ -52,7 +53,7 @@ def test_mean_forces_are_those_of_a_run():
 
 
 def test_no_critical_velocity_is_a_reason(monkeypatch):
-    nothing = mdr.friction.measured_velocity.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+    nothing = MeasuredVelocity(None, None, None, "none", "friction stays reduced")
     monkeypatch.setattr("mdr.studies.quantities.measure_critical_velocity", lambda case: nothing)
     with pytest.raises(ValueError, match="there is none: friction stays reduced"):
         CATALOGUE["measured_v_c"].of(BODY)

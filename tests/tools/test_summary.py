@@ -9,6 +9,7 @@ import pytest
 from conftest import contact, unit_of_velocity
 
 import mdr
+from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summary, lines_of, number, span, with_error
 
@@ -80,9 +81,7 @@ def test_a_case_names_its_parts_with_units_and_reads_back_from_its_repr():
 
 
 def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
-    found = mdr.friction.measured_velocity.MeasuredVelocity(
-        0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7
-    )
+    found = MeasuredVelocity(0.1, 0.0999, 0.1001, "end of stick", "all signs agree", n_runs=7)
     assert str(found).splitlines() == [
         "MeasuredVelocity",
         "  v_c        0.1 m/s               end of stick",
@@ -90,7 +89,7 @@ def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
         "  why        all signs agree",
         "  runs       7",
     ]
-    nothing = mdr.friction.measured_velocity.MeasuredVelocity(None, None, None, "none", "friction stays reduced")
+    nothing = MeasuredVelocity(None, None, None, "none", "friction stays reduced")
     assert "bracket" not in str(nothing)
     assert "none" in str(nothing)
 
