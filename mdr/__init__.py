@@ -25,7 +25,7 @@ from mdr.files.own_records import register
 from mdr.spring.contact_modes import State
 from mdr.friction.friction_data import FrictionData, read_friction_data
 
-from mdr import half_space, indenters, materials
+from mdr import indenters, materials
 from mdr.case import waveforms
 from mdr.case import in_plane as _in_plane
 from mdr.case import motion as _motion
@@ -33,6 +33,7 @@ from mdr.case import motion as _motion
 from mdr.tools.version import __version__ as __version__
 
 if TYPE_CHECKING:
+    from mdr import half_space
     from mdr.normal.load_control import static_depth, static_load
     from mdr.normal.resolved import plausibility, resolved
     from mdr.normal.springs import SpringArray
@@ -78,6 +79,7 @@ _LATER = {
     "mdr.element.contact_element": ("ContactElement",),
     "mdr.element.record": ("SlideRecord", "slide_record"),
     "mdr.element.random_cof": ("RandomCof", "random_cof"),
+    "mdr.half_space": ("half_space",),
     "mdr.friction.surface_fields": ("surface_fields",),
     "mdr.friction.cof_curve": ("CofCurve", "cof_curve"),
     "mdr.friction.shaken": ("blocked_cof", "holding_band", "no_load_velocity"),

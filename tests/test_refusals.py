@@ -114,7 +114,8 @@ RECORDS = [
 FIELDS = [(record, field) for record in RECORDS for field in fields(record)]
 NAMES = [f"{record.__name__}.{field.name}" for record, field in FIELDS]
 #: what the physics allows to be zero, to have a sign, or to have bounds of its own; every other number is positive
-NOT_NEGATIVE = {"KelvinVoigt.tau", "Prony.tau", "Prony.E_inf", "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
+NOT_NEGATIVE = {"SlidingContact.mu_0", "SlidingContact.tau_0", "KelvinVoigt.tau", "Prony.tau", "Prony.E_inf",
+                "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
                 "LoadOscillation.m_z", "InPlaneOscillation.du_x", "InPlaneOscillation.du_y", "SpringPull.m",
                 "SpringPull.c_x", "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
 SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}
@@ -400,7 +401,7 @@ SAYINGS = {
     'sweep(CASE, dict.fromkeys(("alpha", "T", "v_0"), np.linspace(0.1, 1, 1001)))': "more than memory holds",
     'sweep(CASE, {"v0": [1.0]})': "v0 is no path of this case; did you mean v_0?",
     'sweep(CASE, {"pull.k": [1.0]})': "SpringPull has none; did you mean pull.k_x?",
-    'sweep(CASE, {"xyz": [1.0]})': "there are v_0, v_0/v_c, mu_0, indenter, material",
+    'sweep(CASE, {"xyz": [1.0]})': "there are v_0, v_0/v_c, mu_0, tau_0, indenter, material",
     'sweep(CASE, {"v_0": [1.0], "v_0/v_c": [1.0]})': "v_0 and v_0/v_c set the same",
     'sweep(CASE, {"k_x/k_xc": [1], "pull.k_x": [1e4]})': "k_x/k_xc and pull.k_x set the same",
     'sweep(CASE, {"tan_delta": [0.1], "material": [Elastic(1e6, 0.3)]})': "which Elastic has not",
@@ -420,7 +421,7 @@ SAYINGS = {
     'fit(CASE, SOME, ["tau"], bounds={"tau": (-1.0, 1.0)})': "-1 is no value of it: tau must not be negative",
     'fit(CASE, SOME, ["tau"], bounds={"tau": (0.0, NAN)})': "bounds of tau must be a finite number",
     'fit(CASE, SOME, ["tau"], bounds={"k_x": (1, 2)})': "bounds: k_x is not fitted; the parameters are tau",
-    'find(CASE, "du_z")': "give one wish: cof at a velocity v_0, or v_c",
+    'find(CASE, "du_z")': "give one wish: cof or share at a velocity v_0, or v_c",
     'find(CASE, "du_z", v_0=1e-4, cof=0.5)': "cof must be below mu_0 = 0.5, got 0.5: from v_c on friction is mu_0",
     'find(CASE, "du_y", v_c=1e-3)': "du_y is no parameter of this case",
     'find(CASE, "du_z", v_c=1e-3, within=(2, 1))': "within must be (low, high) with low < high, got 2 and 1",

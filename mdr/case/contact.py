@@ -24,7 +24,7 @@ from mdr.case.pull import Pull, RigidPull
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material, answers, refuse_other_materials
 from mdr.materials.operator import Rheology
-from mdr.tools.checks import instance
+from mdr.tools.checks import instance, not_negative, positive
 from mdr.tools.fields import check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
@@ -38,6 +38,7 @@ KINDS: dict[str, type[Any]] = {
     "shake": Shake,
 }
 OPTIONAL = ("shake",)  #: parts that may be None
+OF_FACE = ("mu_0", "tau_0")  #: numbers of the contact as a whole
 
 
 @dataclass(frozen=True)
@@ -62,12 +63,20 @@ class SlidingContact(Summarised):
     material: Material = field(metadata=facts("", "half-space", rule=None))
     mu_0: float = field(
         metadata=facts(
-            "-", "local coefficient of friction", label=r"local friction $\mu_0$", note="coefficient of friction"
+            "-",
+            "local coefficient of friction",
+            not_negative,
+            label=r"local friction $\mu_0$",
+            note="coefficient of friction",
         )
     )
     oscillation: Motion = field(metadata=facts("", "normal motion", rule=None))
     pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
     shake: Shake | None = field(default=None, metadata=facts("", "motion in the plane besides the pull", rule=None))
+    tau_0: float = field(
+        default=0.0,
+        metadata=facts("Pa", "shear strength of the face, besides", not_negative, label=r"shear strength $\tau_0$"),
+    )
 
     def __post_init__(self) -> None:
         for name, kind in KINDS.items():
@@ -75,6 +84,13 @@ class SlidingContact(Summarised):
                 instance(name, getattr(self, name), kind)
         self._refuse_what_springs_do_not_know()
         check_fields(self)
+        if not self.tau_0:
+            positive("mu_0", self.mu_0, "coefficient of friction; it may be 0 where tau_0 is above")
+        elif not self.indenter.is_body:
+            raise ValueError(
+                f"tau_0 = {self.tau_0:.6g} Pa acts on an area of contact, which {type(self.indenter).__name__} does "
+                "not know: set tau_0 = 0"
+            )
         if self.material.E_star == 0:
             raise ValueError(
                 "E_inf = 0: a mean load relaxes to nothing, or sinks in without end, so that there is no periodic "
@@ -108,6 +124,8 @@ class SlidingContact(Summarised):
         parts = [(name, getattr(self, name)) for name in KINDS]
         rows = [_told(name, part) for name, part in parts if part is not None]
         rows.insert(2, ("mu_0", number(self.mu_0), "local coefficient of friction"))
+        if self.tau_0:
+            rows.insert(3, ("tau_0", number(self.tau_0, "Pa"), "shear strength of the face, besides"))
         if not self.oscillation.knows_depth:
             return Summary("SlidingContact", [*rows, ("contact", "under a load", "mdr.resolved(case) finds its depth")])
         a = float(self.indenter.contact_radius(max(self.working_depth, 0.0)))
@@ -316,25 +334,55 @@ class SlidingContact(Summarised):
         return self.rheology.T
 
     @property
+    def unit_length(self) -> float:
+        """mu_0 kappa du_z + 2 tau_0 a(u_z_max)/G* [m]: change of the deflection at which pressed springs slip, and the
+        part of it that a shear strength holds; a unit of tangential lengths. At a constant depth u_z0 stands for du_z.
+        """
+        more = self._strength(self.u_z_max) if self.tau_0 else 0.0
+        return self.mu_0 * self.material.mindlin_ratio * self.cycle.unit + more
+
+    def _strength(self, depth: float) -> float:
+        """2 tau_0 a/G* [m]: deflection of the spring in the middle that the shear strength holds."""
+        return 2 * self.tau_0 * float(self.indenter.contact_radius(depth)) / self.material.G_star
+
+    @property
     def unit_velocity(self) -> float:
-        """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities.
+        """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities. With
+        a shear strength it is omega times `unit_length`.
 
         At a constant depth u_z0 stands for du_z; where depth and shake have two frequencies, omega is the common one.
         """
+        if self.tau_0:
+            return self.unit_length * self.omega
         return stick_limit(self.mu_0, self.cycle.unit, self.omega, self.material.mindlin_ratio)
 
     @property
     def chi(self) -> float:
-        """du_x/(mu_0 kappa u_z0) [-], half the way of the shake over the deflection at which springs slip; infinite for
-        u_z0 <= 0.
+        """du_x/(mu_0 kappa u_z0) [-], half the way of the shake over the deflection at which springs slip, that of the
+        middle one where the face has a shear strength; infinite for u_z0 <= 0.
         """
-        reach = self.mu_0 * self.material.mindlin_ratio * self.working_depth
-        return _half_way(self.shake_harmonics, reach)
+        return _half_way(self.shake_harmonics, self.reach(self.working_depth))
 
     @property
     def eta(self) -> float:
         """du_y/(mu_0 kappa u_z0) [-], the same across the pull."""
-        return _half_way(self.harmonics_across, self.mu_0 * self.material.mindlin_ratio * self.working_depth)
+        return _half_way(self.harmonics_across, self.reach(self.working_depth))
+
+    def reach(self, depth: float) -> float:
+        """Deflection [m] at which the spring in the middle slips.
+
+        Parameters
+        ----------
+        depth : float
+            Depth u_z [m] of a contact at rest.
+
+        Returns
+        -------
+        float
+            mu_0 kappa u_z [m], and with a shear strength 2 tau_0 a/G* more.
+        """
+        more = self._strength(max(depth, 0.0)) if self.tau_0 else 0.0
+        return self.mu_0 * self.material.mindlin_ratio * depth + more
 
     @property
     def fastest_across(self) -> float:
@@ -360,6 +408,20 @@ class SlidingContact(Summarised):
         """Whether the centre of the contact is never lost: Eq. (5), u_z0 > du_z sqrt(1 + T²), for a Kelvin material."""
         cycle = self.cycle
         return cycle.u_z0 > -cycle.unit * self.kept_gap
+
+    @property
+    def edge_moves(self) -> bool:
+        """Whether the radius of contact changes over the period, or contact is lost."""
+        depth = self.cycle.u_z0 + self.cycle.unit * self.kept_gap
+        least, greatest = self.indenter.contact_radius(np.array([max(depth, 0.0), self.u_z_max]))
+        return bool(least < greatest) or not self.keeps_contact
+
+    @property
+    def always_sticks(self) -> bool:
+        """Whether springs stick at any pull: those that the edge of contact reaches, of a face with a shear strength
+        and no dashpot.
+        """
+        return self.tau_0 > 0 and self.T == 0 and self.edge_moves
 
     @property
     def is_of_the_paper(self) -> bool:

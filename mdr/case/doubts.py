@@ -40,7 +40,8 @@ MOST_DAMPED = 10.0  #: damping ratio c_x/(2 sqrt(k_x m)) of the body
 def doubts_of(known: SlidingContact) -> tuple[str, ...]:
     """What is unlikely of a case of known depth, one sentence each: the number, its usual range, a likely reason."""
     return tuple(_of_sizes(known)) or (
-        *_of_shape(known), *_of_motion(known), *_of_material(known), *_of_waves(known), *_of_pull(known)
+        *(_of_shape(known) if known.indenter.is_body else ()), *_of_motion(known), *_of_material(known),
+        *(_of_waves(known) if known.indenter.is_body else ()), *_of_pull(known),
     )  # fmt: skip
 
 
@@ -65,7 +66,7 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
         part = getattr(known, name)
         part = getattr(part, "load", None) or part  # a depth that was found for a load
         for key, unit, size in _sizes(part):
-            if unit == "m" and name == "indenter" and LONGEST <= size < np.inf:
+            if unit == "m" and name == "indenter" and part.is_body and LONGEST <= size < np.inf:
                 yield f"{name}: {key} = {size:.4g} m is {LONGEST:g} m or more: is it in mm?"
             elif unit == "m" and name != "indenter" and 0 < size < ATOM:
                 yield f"{name}: {key} = {size:.4g} m is below the size of an atom, {ATOM:g} m: is it in another unit?"
@@ -87,7 +88,7 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
         yield f"material: its modulus at this frequency, {modulus:.4g} Pa, is {side}?"
     if known.mu_0 > GREATEST_MU_0:
         yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
-    if known.mu_0 < LEAST_MU_0:
+    if known.mu_0 < LEAST_MU_0 and not known.tau_0:
         yield f"mu_0 = {known.mu_0:.4g} is less than {LEAST_MU_0:g}, that of a joint: is it in another unit?"
 
 

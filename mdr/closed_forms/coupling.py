@@ -18,6 +18,7 @@ import math
 from typing import NamedTuple
 
 from mdr.case.contact import SlidingContact, as_given, require_case
+from mdr.case.coulomb import of_coulomb
 from mdr.case.motion import NormalOscillation
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
@@ -38,6 +39,7 @@ class LossLaw(NamedTuple):
 LOSS = LossLaw(a=0.210, b=0.313, c=0.122, flat=1.1, rub=3.2, beta=0.5)  #: from validation/coupling_law.py
 
 
+@of_coulomb
 def radial_rub(case: SlidingContact) -> float:
     """Ratio lambda [-]: greatest radial velocity of the surface at the edge of the contact over that of Eq. (1).
 
@@ -70,6 +72,7 @@ def radial_rub(case: SlidingContact) -> float:
     return 2 * abs(material.dundurs_beta) / (math.pi * case.mu_0 * material.mindlin_ratio)
 
 
+@of_coulomb
 def coupled_critical_velocity(case: SlidingContact) -> float:
     """Velocity [m/s] up to which about something sticks, with normal-tangential coupling.
 
@@ -109,6 +112,7 @@ def coupled_critical_velocity(case: SlidingContact) -> float:
     return (1 + radial_rub(case)) * full_slip_critical_velocity(case)
 
 
+@of_coulomb
 def coupling_loss(case: SlidingContact) -> float:
     """Error of the springs [-] that normal-tangential coupling makes: how much of mu_0 they are too high by, at most.
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.contact import SlidingContact
+from mdr.case.contact import SlidingContact, require_case
 from mdr.case.motion import LoadOscillation
+from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.paper import linear_critical_velocity
 from mdr.normal.resolved import at_rest, resolved
 
@@ -74,6 +75,10 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     Alone it has v_c = omega abs(X), which knows neither shape nor depth nor material. Shaken across the pull a contact
     has full friction at no velocity, and v_c is infinite.
 
+    A shear strength of the face changes nothing on a flat face that keeps contact. On a curved elastic one there is no
+    critical velocity, and v_c is infinite. On a dashpot it is back, known by the full-slip condition alone, which is
+    answered then: it knows depth, relaxation time and amplitude.
+
     Examples
     --------
     >>> import mdr
@@ -84,6 +89,8 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     >>> print(f"{mdr.critical_velocity(case):.3g} m/s")
     0.000486 m/s
     """
+    if _knows_full_slip_alone(require_case(case)):
+        return full_slip_critical_velocity(case, direction)
     case = at_rest(case).pulled(direction)
     u_n, X_n = _depth_harmonics(case), case.way
     if case.moves_across or not (np.isfinite(u_n).all() and np.isfinite(X_n).all()):
@@ -94,6 +101,11 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     H_n = np.asarray(case.pull.receptance(n_omega)) if case.k_zc else np.zeros(size)
     K_n = case.dynamic_stiffness(n_omega)
     return linear_critical_velocity(case.mu_0, case.omega, u_n, case.material.mindlin_ratio, K_n, H_n, X_n)
+
+
+def _knows_full_slip_alone(case: SlidingContact) -> bool:
+    """Whether a shear strength leaves the condition of full slip alone: where the edge of contact moves."""
+    return case.tau_0 > 0 and resolved(case).edge_moves
 
 
 def velocity_scale(case: SlidingContact) -> float:
@@ -120,6 +132,8 @@ def _depth_harmonics(case: SlidingContact) -> NDArray[np.complex128]:
 
 def formula_of(case: SlidingContact) -> str:
     """Which closed form critical_velocity(case) is, in words; without stiffness at the mean depth Eq. (1) is left."""
+    if _knows_full_slip_alone(case):
+        return "full slip with tau_0"
     case = at_rest(case)
     plain = case.pull.is_rigid or case.k_zc == 0
     if case.is_shaken:

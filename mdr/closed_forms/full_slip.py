@@ -22,13 +22,15 @@ from mdr.case.contact import SlidingContact
 from mdr.closed_forms.across import is_across_alone, static_across
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, has_closed_form
 from mdr.normal.followed_force import N_STEPS
-from mdr.normal.normal_force import followed, mean_normal_force, normal_force
+from mdr.normal.normal_force import followed, full_cof, mean_normal_force, normal_force
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME, Array
 
 
 def static_cof(case: SlidingContact) -> float:
     """Coefficient of friction [-] in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
+
+    With a shear strength of the face it is (mu_0 min F_N + tau_0 pi min a²)/mean F_N, a the radius of contact.
 
     Parameters
     ----------
@@ -66,25 +68,29 @@ def static_cof(case: SlidingContact) -> float:
     0.322
     """
     case = resolved(case)
-    if case.moves_across and is_across_alone(case):
+    if case.moves_across and is_across_alone(case) and not case.tau_0:
         return static_across(case)
     if case.is_shaken:
-        if not has_closed_form(case):
+        if case.tau_0 or not has_closed_form(case):
             raise ValueError(
                 "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull, "
-                "along the pull on an elastic or Kelvin material, across it at a constant depth: ask "
-                "holding_band(case), or cof_curve(case, [0])"
+                "along the pull on an elastic or Kelvin material, across it at a constant depth, without tau_0: "
+                "ask holding_band(case), or cof_curve(case, [0])"
             )
         return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):
-        return case.mu_0
+        return full_cof(case)
     if case.material.contact_arms and not followed(case).F_N.all():  # at some instant nothing presses
         least = 0.0
     elif case.material.contact_arms:
         least = max(_least(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
         least = float(case.indenter.force(case.cycle.u_z0 + case.cycle.unit * case.kept_gap, case.material.E_star))
-    return case.mu_0 * least / mean_normal_force(case)
+    if not case.tau_0:
+        return case.mu_0 * least / mean_normal_force(case)
+    a = float(case.indenter.contact_radius(max(case.cycle.u_z0 + case.cycle.unit * case.kept_gap, 0.0)))
+    held = case.tau_0 * np.pi * a**2 if case.keeps_contact else 0.0
+    return (case.mu_0 * least + held) / mean_normal_force(case)
 
 
 def _slips_at_any_pull(case: SlidingContact) -> bool:

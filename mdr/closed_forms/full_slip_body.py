@@ -27,10 +27,19 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.depth_cycle import harmonic_sum, turns
+from mdr.case.depth_cycle import harmonic_sum, stick_limit, turns
 from mdr.case.pull import Pull
+from mdr.closed_forms.full_slip_face import greatest_rate
 from mdr.normal.followed_force import N_STEPS
-from mdr.normal.normal_force import corners, edge_of, followed, load_harmonics, normal_force, normal_force_rate
+from mdr.normal.normal_force import (
+    contact_radius,
+    corners,
+    edge_of,
+    followed,
+    load_harmonics,
+    normal_force,
+    normal_force_rate,
+)
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, SAME, Array
 
@@ -57,9 +66,10 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         v_c [m/s]. Negative where friction is full at any pull in this direction, and some way into the other one, as
         of a shaken contact that is lost in part of the period. Infinite on an undamped resonance, k_x = m (n omega)²
         with a harmonic F_n that is not zero. Infinite where something shakes the contact across the pull, as friction
-        is full at no velocity then. Infinite too for a body without mass and damper whose contact is lost and
-        touches again with a jump of F_N' (a Kelvin material, unless the tip is sharp): for an instant its velocity has
-        no bound.
+        is full at no velocity then, and on curved elastic faces with a shear strength, where springs that the edge of
+        contact reaches stick at any velocity (full_slip_face.py). Infinite too for a body without mass and damper whose
+        contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the tip is sharp): for an
+        instant its velocity has no bound.
 
     Raises
     ------
@@ -94,10 +104,18 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     0.000516 m/s
     """
     case = resolved(case).pulled(direction)
-    if case.moves_across or not np.isfinite(case.way).all():
+    if case.moves_across or not np.isfinite(case.way).all() or case.always_sticks:
         return np.inf
+    strengthened = case.tau_0 > 0 and case.edge_moves
+    if strengthened and case.material.contact_arms:
+        raise ValueError(
+            "full slip of a face with a shear strength is known on elastic and Kelvin materials, got "
+            f"{type(case.material).__name__}: measure_critical_velocity(case) runs it"
+        )
     rates = _slip_rates(case)
     touches, leaves = contact_ends(case)
+    if case.pull.is_rigid and strengthened:
+        return greatest_rate(case, lambda phase: harmonic_sum(rates, phase))
     if case.pull.is_rigid:
         phase = np.append(turns(rates), 0.0)  # a sum that is still has no turns
         phase = np.concatenate([phase[_in_contact(phase, touches, leaves)], touches, leaves])
@@ -110,13 +128,22 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     y_dot = _velocity(case, panels)
     if resonant:  # the force does not contain it, so neither does the periodic motion
         y_dot -= 2 * (panels.harmonic(y_dot, resonant) * np.exp(1j * resonant * panels.phase)).real
+    if strengthened:
+        from scipy.interpolate import PchipInterpolator
+
+        y_rate = PchipInterpolator(panels.phase.ravel(), y_dot.ravel())
+        begin = float(panels.low[0])
+        return greatest_rate(
+            case, lambda phase: harmonic_sum(rates, phase) - y_rate(begin + np.mod(phase - begin, 2 * np.pi))
+        )
     touching = _in_contact(0.5 * (panels.low + panels.high), touches, leaves)
     return _greatest((harmonic_sum(rates, panels.phase) - y_dot)[touching])
 
 
 def _slip_rates(case: SlidingContact) -> NDArray[np.complex128]:
     """Harmonics 1 ... N of mu_0 kappa u_z' - x' [m/s]."""
-    Z, X = case.unit_velocity * case.cycle.harmonics, case.omega * case.way
+    unit = stick_limit(case.mu_0, case.cycle.unit, case.omega, case.material.mindlin_ratio)
+    Z, X = unit * case.cycle.harmonics, case.omega * case.way
     size = max(Z.size, X.size)
     Z, X = (np.pad(row, (0, size - row.size)) for row in (Z, X))
     return np.asarray(1j * np.arange(1, size + 1) * (Z - X))
@@ -143,7 +170,7 @@ def _in_contact(phase: Array, touches: Array, leaves: Array) -> NDArray[np.bool_
 
 @dataclass(frozen=True, eq=False)
 class _TimePanels:
-    """The period, cut into panels of time, and the normal force [N] on the Gauss nodes of each."""
+    """The period, cut into panels of time, and the friction of full slip [N] on the Gauss nodes of each."""
 
     low: Array  # (n_panels,) phases
     high: Array
@@ -191,7 +218,10 @@ def _time_panels(case: SlidingContact, rates: NDArray[np.complex128], cuts: Arra
     ends = np.append(np.repeat(ends[:-1], parts) + part * np.repeat(length / parts, parts), ends[-1])
     low, high = ends[:-1], ends[1:]
     phase = low[:, None] + (high - low)[:, None] * _collocation()[0]
-    return _TimePanels(low, high, phase, normal_force(case, phase))
+    friction = case.mu_0 * normal_force(case, phase)
+    if case.tau_0:
+        friction = friction + case.tau_0 * np.pi * contact_radius(case, phase) ** 2
+    return _TimePanels(low, high, phase, friction)
 
 
 def _graded(low: float, high: float, smallest: float) -> Array:
@@ -229,12 +259,15 @@ def _velocity(case: SlidingContact, panels: _TimePanels) -> Array:
     (m, c_x, K), omega = case.pull.coefficients, case.omega
     M, C = m * omega**2, c_x * omega
     if M == C == 0:
-        return -case.mu_0 * omega / K * normal_force_rate(case, panels.phase, panels.slope)
+        rate = case.mu_0 * normal_force_rate(case, panels.phase, panels.slope)
+        if case.tau_0:
+            rate = rate + case.tau_0 * np.pi * panels.slope(contact_radius(case, panels.phase) ** 2)
+        return -omega / K * rate
     A, b = (
         (np.array([[0, 1], [-K / M, -C / M]]), np.array([0, 1 / M])) if M else (np.array([[-K / C]]), np.array([1 / C]))
     )
     _, into, across = _collocation()
-    force = -case.mu_0 * (panels.force - panels.mean)
+    force = panels.mean - panels.force
     (n_panels, n), d = force.shape, b.size
     h = (panels.high - panels.low)[:, None, None]
     right = np.empty((n_panels, n, d, 1 + d))  # of the force, and of each state at the start

@@ -49,6 +49,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
+from mdr.case.coulomb import of_coulomb
 from mdr.indenters.mapping.quadrature import Rule, double_exponential
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
 from mdr.normal.normal_force import edge_marks, mean_normal_force
@@ -86,6 +87,7 @@ class _Stick:
     slope: Array  # d end/d sigma
 
 
+@of_coulomb
 def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     """Average COF under a rigid pull at velocities v_0 > 0 [m/s], any shape; (*) above.
 
@@ -116,6 +118,7 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     )
 
 
+@of_coulomb
 def near_critical(case: SlidingContact) -> Asymptote:
     """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, for u_z0 such that the centre touches at phase 3 pi/2.
 
@@ -139,6 +142,7 @@ def near_critical(case: SlidingContact) -> Asymptote:
     return Asymptote(1.5, 2 * np.sqrt(2) * case.T / (3 * np.pi) * share)
 
 
+@of_coulomb
 def small_velocity(case: SlidingContact) -> Asymptote:
     """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z).
 

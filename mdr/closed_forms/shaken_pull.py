@@ -104,7 +104,7 @@ def has_closed_form(case: SlidingContact) -> bool:
     """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
     known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
     # with more harmonics of depth and way a run is as fast
-    if not known or case.moves_across or max(case.cycle.cos.size, case.way.size) > 64:
+    if not known or case.tau_0 or case.moves_across or max(case.cycle.cos.size, case.way.size) > 64:
         return False
     reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
     return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'

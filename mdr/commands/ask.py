@@ -18,11 +18,14 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
     """The number that is searched for, the wish, and the range."""
     known = "the number that is searched for, such as oscillation.du_z, load, frequency or alpha"
     command.add_argument("path", help=known)
-    command.usage = "%(prog)s case.toml path (--v-0 velocity --cof friction | --v-c velocity) [--within low high]"
+    wish = "(--v-0 velocity (--cof friction | --share share) | --v-c velocity)"
+    command.usage = f"%(prog)s case.toml path {wish} [--within low high]"
     pulled = "pulling velocity, with --cof: 10mm/s, 0.5v_c"
     command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
     friction = quantity("a COF", "-", OF_MU_0)
     command.add_argument("--cof", metavar="friction", type=friction, help="friction that is wanted: 0.2, 0.5mu_0")
+    share = plain_number("-", "a share, such as 99% or 0.99")
+    command.add_argument("--share", metavar="share", type=share, help="share of full friction that is wanted: 99%%")
     command.add_argument("--v-c", metavar="velocity", type=velocity, help="critical velocity that is wanted")
     ends = "range of the search: 0.1um 5um (default: a tenth to ten times the value of the case)"
     command.add_argument("--within", metavar=("low", "high"), nargs=2, help=ends)
@@ -35,7 +38,7 @@ def find(args: argparse.Namespace, asked: Said) -> int:
         path = path_of(asked.case, args.path)
         unit = facts_at(path).unit
         within = args.within and tuple(value_in("--within", end, unit) for end in args.within)
-        found = mdr.find(asked.case, path, **wish, within=within, held=asked.held)
+        found = mdr.find(asked.case, path, **wish, share=args.share, within=within, held=asked.held)
     answer(args, {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit}, str(found), asked.case)
     return Exit.DONE if found.values else Exit.FAILED
 

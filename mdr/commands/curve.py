@@ -78,10 +78,11 @@ def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:
     yield f"v_c = {velocity_text(curve.v_c)}{back} by {equation}, {known}"
     cof_y = [""] * curve.v_0.size if curve.cof_y is None else [f"{round(one, 6) + 0.0:17.6f}" for one in curve.cof_y]
     across = "" if curve.cof_y is None else "  COF across"
-    yield f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {'COF/mu_0':>9} {'error':>8} {'stick':>6}  settled{across}"
+    over = "COF/mu_0" if curve.full_cof == curve.mu_0 else "share"
+    yield f"{'v_0 [m/s]':>12} {'v_0/v_c':>8} {'COF':>10} {over:>9} {'error':>8} {'stick':>6}  settled{across}"
     columns = (curve.v_0, curve.cof, curve.cof_error, curve.stick_share, curve.settled, cof_y)
     for v_0, cof, error, stick, settled, aside in zip(*columns, strict=True):
         v_c = curve.v_c_back if v_0 < 0 and curve.v_c_back is not None else curve.v_c  # of the way it is pulled
         ratio = f"{v_0 / v_c:8.4f}" if math.isfinite(v_c) and v_c > 0 else f"{'-':>8}"
         end = ("yes" if settled else "no ") + aside
-        yield f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.mu_0:9.6f} {error:8.1e} {stick:6.3f}  {end}".rstrip()
+        yield f"{v_0:12.6g} {ratio} {cof:10.6f} {cof / curve.full_cof:9.6f} {error:8.1e} {stick:6.3f}  {end}".rstrip()

@@ -8,6 +8,7 @@ from pathlib import Path
 from textwrap import shorten
 
 import mdr
+from mdr.case.coulomb import require_coulomb
 from mdr.commands.arguments import read_as, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain
 from mdr.commands.written import require_free, write
@@ -38,6 +39,7 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     if path.suffix not in (".h", ".fmu"):
         raise WrongInput(f"-o {path}: the file must end in .h, a C header, or .fmu, a unit for co-simulation")
     name, folder = path.stem, path.parent
+    require_coulomb(case, "the element")
     if not NAME.fullmatch(name):
         raise WrongInput(f"-o {path}: {name!r} must be a word for names in C: at most 40 letters, digits and _")
     require_free([path])

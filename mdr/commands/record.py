@@ -10,6 +10,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 import mdr
+from mdr.case.coulomb import require_coulomb
 from mdr.case.displacement import inner_part
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file, velocity, whole_number
 from mdr.commands.output import WrongInput, answer, picked, refusals
@@ -43,6 +44,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
     case = mdr.read_case(args.case)
+    require_coulomb(case, "slide_record")
     make_folder(args)
     recorded = read_file(mdr.read_record, args.motion, args)
     try:

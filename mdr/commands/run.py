@@ -50,8 +50,8 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     v_c, spent = mdr.critical_velocity(case, -1 if v_0 < 0 else 1), found.energy_balance
     text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
     values = picked(
-        found, "v_0", "mu_0", "cof", "cof_y", "cof_error", "settled", "kind", "why", "stick_share", "least_slip",
-        "mean_F_x", "mean_F_y", "mean_F_z", "n_springs", "steps_per_period", "n_periods",
+        found, "v_0", "mu_0", "full_cof", "cof", "share", "cof_y", "cof_error", "settled", "kind", "why", "stick_share",
+        "least_slip", "mean_F_x", "mean_F_y", "mean_F_z", "n_springs", "steps_per_period", "n_periods",
     )  # fmt: skip
     balance = {**asdict(spent), "residual": spent.residual}
     status = _end(args, found, {"v_c": v_c, **values, "energy_balance": balance}, text, case)

@@ -18,7 +18,7 @@ from mdr.closed_forms.laws.across import full_across
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
 from mdr.friction.shaken import HoldingBand, band_of_pull
 from mdr.friction.verdict import NEARLY
-from mdr.normal.normal_force import mean_normal_force
+from mdr.normal.normal_force import full_cof, mean_normal_force
 
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts
 
@@ -65,8 +65,14 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         told.append(told_velocity("v_c_rigid", rigid, "rigid", "the same contact pulled rigidly, Eq. (1)"))
     if not case.is_shaken:
         static = mdr.static_cof(case)
-        rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}"
+        known = mdr.resolved(case)
+        full = f"; in full slip {full_cof(known):.6g}" if case.tau_0 else ""
+        rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}{full}"
         told.append(Told("static_cof", static, "static COF", f"{static:.6g}", rest))
+        if known.always_sticks and known.pull.is_rigid and not known.rheology.remembers:
+            back, most = mdr.laws.velocity_of_share(known, 1 - NEARLY), f"{100 - 100 * NEARLY:g} %"
+            meaning = f"velocity from which about {most} of full friction is back (mdr.laws.velocity_of_share)"
+            told.append(Told("nearly_full", back, most, f"{back:.6g} m/s", meaning))
     return [*told, Told("mu_0", case.mu_0), *ends_of(case)]
 
 
@@ -124,6 +130,10 @@ def ends_of(case: mdr.SlidingContact) -> list[Told]:
     """The ends of the characteristic of a contact shaken in the plane, in words what is not known; none of others."""
     if not case.is_shaken:
         return []
+    if case.tau_0:
+        return [
+            Told("holding_band", None, "band", "not known", "at rest, with a shear strength: by Coulomb's law alone")
+        ]
     band, standing = mdr.holding_band(case), "mean F_x over mean F_z at rest, under a rigid pull that stands still"
     blocked, force, own = _asked(lambda: _at_rest(case), _span, "the same under its own pull, standing still")
     unloaded = "velocity at which it runs by itself, where no force holds it"

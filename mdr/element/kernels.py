@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.spring.contact import Each, press
+from mdr.spring.contact import Each, Springs, press
 from mdr.spring.law import Law
 from mdr.spring.motion import glassy
 from mdr.spring.path import Path
@@ -52,8 +52,8 @@ def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each):
     """The springs s, e after a straight way, scaled, from the depth z_0: their Answer. e is complex in the plane."""
     h = tools.times.h
     z_1, x_1 = way_z / h, way_x / h
-    path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1)
-    return row(s, e, contact.gap, contact.w, path, z_1, x_1, T, modes, arms, tools, None, each, None)
+    path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1, None)
+    return row(s, e, Springs(contact.gap, contact.w, None), path, z_1, x_1, T, modes, arms, tools, None, each, None)
 
 
 class Room(NamedTuple):
@@ -233,7 +233,17 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
     for _ in range(MOST_TRIALS):
         trial[:] = s
         rate = (x - z) / h
-        of = press(trial, contact.gap, contact.w, Path(z, rate, 0.0, 0.0, 0.0), rate, T, modes, arms, tools, None)
+        of = press(
+            trial,
+            Springs(contact.gap, contact.w, None),
+            Path(z, rate, 0.0, 0.0, 0.0, None),
+            rate,
+            T,
+            modes,
+            arms,
+            tools,
+            None,
+        )
         off = of.normal_end - load
         if abs(off) <= BALANCED * scale:
             break

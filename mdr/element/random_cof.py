@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.case.contact import SlidingContact
+from mdr.case.coulomb import of_coulomb
 from mdr.case.spectrum import Spectrum
 from mdr.element.contact_element import springs_of
 from mdr.element.kernels import SpringRow, follow
@@ -92,6 +93,7 @@ class RandomCof(Summarised, Tabled, ArrayRecord):
         return plot_random_cof(self, ax)
 
 
+@of_coulomb
 def random_cof(
     case: SlidingContact,
     spectrum: Spectrum,

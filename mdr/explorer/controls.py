@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, as_given
+from mdr.case.contact import KINDS, OF_FACE, as_given
 from mdr.case.in_plane import MOST, PLACES
 from mdr.case.paths import GROUPS, facts_at, fields_set
 from mdr.closed_forms.critical_velocity import UP_TO, velocity_scale
@@ -58,7 +58,8 @@ def controls_of(state: State) -> dict[str, list[Control]]:
     """The controls of a state, under the part that they belong to; "" are those of the contact as a whole."""
     case = as_given(state.case)
     groups = group_values(case) if state.in_groups else {}
-    found = {"": [control_of(state, "mu_0"), control_of(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
+    of_face = [control_of(state, path) for path in OF_FACE if path == "mu_0" or case.indenter.is_body]
+    found = {"": [*of_face, control_of(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
     for slot in KINDS:
         part = getattr(case, slot)
         own = {f"{slot}.{one.name}": one for one in fields(part) if one.init} if is_dataclass(part) else {}

@@ -12,6 +12,8 @@ from bokeh.models import Span
 from mdr.explorer.canvas import DARK, GREY, canvas, data_of, span, stroke, swatches
 from mdr.explorer.lines import line_of, suits
 from mdr.explorer.pictures import Picture
+from mdr.normal.normal_force import full_cof
+from mdr.normal.resolved import resolved
 from mdr.plots import COLOURS, prefix
 
 BEFORE = "#c3d9ea"
@@ -101,14 +103,14 @@ class Curve:
 
     def _show_limits(self, picture: Picture, per: float) -> None:
         """Friction of full slip, critical velocities, and the axis of friction."""
-        mu_0, both = picture.state.case.mu_0, picture.state.case.is_shaken
+        full, both = full_cof(resolved(picture.state.case)), picture.state.case.is_shaken
         back = -picture.v_c_back * per if picture.v_c_back is not None else np.nan
-        places = (mu_0, -mu_0 if both else np.nan, picture.v_c * per, back)
+        places = (full, -full if both else np.nan, picture.v_c * per, back)
         for mark, at in zip(self.marks, places, strict=True):
             mark.visible, mark.location = bool(np.isfinite(at)), float(at) if np.isfinite(at) else 0.0
         cof_y = None if picture.curve is None else picture.curve.cof_y
         drawn = [one for one in (picture.cof, picture.rigid, cof_y) if one is not None]
-        values = np.concatenate([*drawn, [0.9 * mu_0, mu_0]])  # the axis shows a tenth of mu_0 at least
+        values = np.concatenate([*drawn, [0.9 * full, full]])  # the axis shows a tenth of it at least
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         room = 0.06 * (high - low)
         if not suits(self.levels, low - room, high + room):

@@ -15,7 +15,7 @@ from matplotlib.colors import to_hex
 from mdr.explorer.canvas import GREY, canvas, data_of, span, swatches
 from mdr.explorer.springs import DIRECTIONS, FRAMES, frames_of, map_of
 from mdr.march.result.run import SlidingRun
-from mdr.plots import COLOURS, MODES, around, periods_of, prefix
+from mdr.plots import COLOURS, MODES, around, limit_of, periods_of, prefix
 from mdr.plots.side_view import SideView
 
 SHADES = [*(colour for _, colour in MODES), *(to_hex(around()((i + 0.5) / DIRECTIONS)) for i in range(DIRECTIONS))]
@@ -112,7 +112,7 @@ class OverPeriod:
         self.moving.yaxis.axis_label = f"height [{view.unit_z}]"
 
     def _show_forces(self, run: SlidingRun) -> None:
-        F_x, limit = np.asarray(run.F_x), run.mu_0 * np.asarray(run.F_z)
+        F_x, limit = np.asarray(run.F_x), limit_of(run)
         F_y = np.full(F_x.shape, np.nan) if run.F_y is None else run.F_y
         factor, unit = prefix(np.concatenate([F_x, limit]), "N")
         turns = run.F_y is not None or float(F_x.min()) < -1e-9 * float(limit.max())

@@ -131,7 +131,8 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     small = 0.1  # of an amplitude over its mean, a damping ratio, a loss tangent: where nothing leaves the plane
     natural = 2.0 * case.omega  # of a new body: off resonance
     m = k_x / natural**2
-    reach = case.mu_0 * kappa * depth
+    reach = case.reach(depth)
+    strength = case.tau_0 or case.mu_0 * load / (np.pi * float(case.indenter.contact_radius(depth)) ** 2)
     sizes = {
         "u_z0": depth,
         "du_z": small * depth,
@@ -142,6 +143,7 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
         "k_x": k_x,
         "m": m,
         "c_x": 2 * small * float(np.sqrt(k_x * m)),
+        "tau_0": float(strength),
         "du_x": reach / 2,
         "du_y": reach / 2,
     }

@@ -102,9 +102,9 @@ def written(case: SlidingContact, held: Mapping[str, Any]) -> str:
     case = as_given(case)
     for name in fields_of(case):
         value = getattr(case, name)
-        if name not in KINDS:
+        if name not in KINDS and (value or name not in MAY_LACK):
             top.append(f"{name} = {toml_value(value)}")
-        elif value is not None and not isinstance(value, RigidPull):
+        elif name in KINDS and value is not None and not isinstance(value, RigidPull):
             tables.append(_written(_TABLES[name], value, held))
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
@@ -225,7 +225,8 @@ class _Table:
             raise CaseFileError(f"{self.choice} must be a name in quotes, got {_kind(name)}; {others}")
         if name in self.records():
             raise CaseFileError(f'{self.choice} "{name}": {_CALLABLE}; {others}')
-        raise CaseFileError(f"{self.choice} {short(json.dumps(name))} is unknown; {offer(name, list(names))}")
+        written = short(json.dumps(name, ensure_ascii=False))
+        raise CaseFileError(f"{self.choice} {written} is unknown; {offer(name, list(names))}")
 
     def told_by(self, table: Mapping[str, Any]) -> type[Any]:
         """The record of a table that does not name it; a load without amplitudes of depth is a LoadOscillation's."""
@@ -308,6 +309,7 @@ HARMLESS = {
     "oscillation": example_of(NormalOscillation),
 }
 TOP = units_of(SlidingContact)
+MAY_LACK = ("tau_0",)  #: not written where they are zero
 FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
@@ -393,7 +395,7 @@ def _written(table: _Table, record: Any, held: Mapping[str, Any]) -> str:
 
 def _bare(name: str) -> str:
     """A key as TOML writes it: plain, or quoted where it holds other than letters, digits, _ and -."""
-    return short(name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name))
+    return short(name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name, ensure_ascii=False))
 
 
 def _kind(value: Any) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.coulomb import greatest
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
@@ -25,6 +26,7 @@ from mdr.march.periodic.theorems import disordered
 from mdr.march.result.refinement import resolution_of
 from mdr.march.result.run import finish
 from mdr.march.result.slide import SLOWEST, runs
+from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, row
@@ -52,6 +54,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
     v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
     mu_0: float  #: local coefficient of friction [-]
+    full_cof: float  #: COF of full slip [-]: mu_0, or what a shear strength of the face makes of it
     static_cof: float  #: limit v_0 -> +0 [-]
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
     v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
@@ -60,6 +63,11 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
     )
     cof_y: Array | None = None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
 
+    @property
+    def share(self) -> Array:
+        """`cof` over that of full slip [-], (n_v,): cof/mu_0 where the face has no shear strength."""
+        return self.cof / self.full_cof
+
     def _summary(self) -> Summary:
         n, settled = self.v_0.size, int(self.settled.sum())
         back = [] if self.v_c_back is None else [("v_c back", number(self.v_c_back, "m/s"), "pulled the other way")]
@@ -67,7 +75,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
         return Summary(
             f"CofCurve at {n} velocities, {span(self.v_0, 'm/s')}",
             [
-                ("COF", span(self.cof), f"of mu_0 = {self.mu_0:.6g}"),
+                ("COF", span(self.cof), f"of {greatest(self.full_cof, self.mu_0)}"),
                 *([] if self.cof_y is None else [("across", span(self.cof_y), "mean F_y over mean F_z")]),
                 ("error", span(self.cof_error), "bound on the numerical error of the COF"),
                 ("settled", f"{settled} of {n}", ""),
@@ -79,7 +87,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
         )
 
     def plot(self, ax: Any = None, *, absolute: bool = False) -> Any:
-        """Draw cof/mu_0 over v_0/v_c, or both as they are.
+        """Draw cof/mu_0 over v_0/v_c, or both as they are; with a shear strength the share of full slip for cof/mu_0.
 
         Parameters
         ----------
@@ -191,7 +199,8 @@ def cof_curve(
         back = -static
     elif np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
         back = -float(_at_rest(case.mirrored, friction)[0])
-    error, n = np.where(settled, np.minimum(error, 2 * case.mu_0), 2 * case.mu_0), velocities.size
+    full, n = full_cof(case), velocities.size
+    error = np.where(settled, np.minimum(error, 2 * full), 2 * full)
     return CofCurve(
         v_0=velocities,
         cof=cof[:n],
@@ -200,6 +209,7 @@ def cof_curve(
         stick_share=sticks[:n],
         v_c=critical_velocity(case),
         mu_0=case.mu_0,
+        full_cof=full,
         static_cof=static,
         why=tuple(why[:n].tolist()),
         v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
@@ -283,14 +293,14 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     slow runs tell the limit, to which friction falls like a power of the velocity between 2/3 and 1.
     """
     if case.moves_across:
-        if is_across_alone(case):
+        if is_across_alone(case) and not case.tau_0:
             return static_cof(case), EXACT * case.mu_0, True, 1.0, "", 0.0
         # shaken across, a contact comes to rest by ever smaller slips: less slow
         return _slow_limit(friction(case, np.array([1e-3, 1e-2]) * case.pace))
     if not case.is_shaken:
         # arms are followed spring by spring, to this share of mu_0
         error = 5e-6 if case.material.contact_arms else EXACT
-        return static_cof(case), (error + case.cycle.missing) * case.mu_0, True, 1.0, "", 0.0
+        return static_cof(case), (error + case.cycle.missing) * full_cof(case), True, 1.0, "", 0.0
     if case.material.contact_arms or case.pull.coefficients[0] > 0:
         return _slow_limit(friction(case, np.array([1e-5, 1e-4]) * case.pace))
     cof, error, settled, sticks, why, _ = (column[0] for column in friction(case, np.zeros(1)))
@@ -336,7 +346,7 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
     resolution = Resolution(n_springs, steps_per_period, "full_slip", lump=True, bounded=False)
 
     def quick(one: SlidingContact, v_0: Array) -> Columns:
-        cof = np.array([case.mu_0 * end.cof for end in runs(one, v_0.tolist(), resolution)])
+        cof = np.array([end.friction(end.cof) for end in runs(one, v_0.tolist(), resolution)])
         return Columns.exact(cof, 0 * cof, 0 * cof)
 
     case = resolved(case)

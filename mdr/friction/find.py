@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, as_given
+from mdr.case.contact import OF_FACE, SlidingContact, as_given
 from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
@@ -25,10 +25,10 @@ from mdr.friction.free_parameters import allowed, changed, path_of, value_of
 from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE
-from mdr.normal.normal_force import mean_normal_force
-from mdr.normal.resolved import at_rest
+from mdr.normal.normal_force import full_cof, mean_normal_force
+from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import EXACT
-from mdr.tools.checks import ends, finite, positive
+from mdr.tools.checks import between, ends, finite, positive
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ticker
@@ -61,6 +61,7 @@ def find(
     *,
     v_0: float | None = None,
     cof: float | None = None,
+    share: float | None = None,
     v_c: float | None = None,
     within: tuple[float, float] | None = None,
     held: Mapping[str, Any] | None = None,
@@ -78,8 +79,11 @@ def find(
         Pulling velocity [m/s] at which friction is asked for.
     cof : float, optional
         The coefficient of friction [-] that is wanted at v_0.
+    share : float, optional
+        The share of the friction of full slip [-] that is wanted at v_0, in the place of cof: of mu_0, or of what a
+        shear strength of the face makes of it.
     v_c : float, optional
-        The critical velocity [m/s] that is wanted, as `critical_velocity` gives it. Give this, or v_0 and cof.
+        The critical velocity [m/s] that is wanted, as `critical_velocity` gives it. Give this, or v_0 and cof or share.
     within : (float, float), optional
         Lowest and highest value. None: a tenth to ten times that of the case, as far as the case can have it.
     held : mapping of str to float, optional
@@ -113,7 +117,7 @@ def find(
     held = still_held(held or {}, [path])
     search = _Search(
         lambda value: changed(case, path, value, held),
-        _wish(case, path, v_0, cof, v_c),
+        _wish(case, path, v_0, cof, share, v_c),
         *_range(case, path, within, held),
     )
     values = tuple(search.values())
@@ -140,15 +144,19 @@ class _Wish(NamedTuple):
         return 1 - 2 * self.wanted / (found + self.wanted)
 
 
-def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, v_c: Any) -> _Wish:
+def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: Any) -> _Wish:
     """What was asked for."""
-    if (cof is None) == (v_c is None) or (cof is None) != (v_0 is None):
-        raise ValueError("give one wish: cof at a velocity v_0, or v_c")
+    if [cof, share, v_c].count(None) != 2 or (v_c is None) == (v_0 is None):
+        raise ValueError("give one wish: cof or share at a velocity v_0, or v_c")
     if v_c is not None:
         wanted = positive("v_c", v_c, "critical velocity in m/s")
         return _Wish(lambda one, _: (critical_velocity(one), 0.0), wanted, "v_c", "m/s")
-    wanted, speed = finite("cof", cof), finite("v_0", v_0)
-    if path != "mu_0" and abs(wanted) >= case.mu_0:
+    speed = finite("v_0", v_0)
+    if share is not None:
+        wanted, what = between("share", share, -1, 1, "of full friction"), f"the share at {shown(speed, 'm/s')}"
+        return _Wish(lambda one, accuracy: _settled(one, speed, accuracy, in_full_slip=True), wanted, what, "")
+    wanted = finite("cof", cof)
+    if path not in OF_FACE and not case.tau_0 and abs(wanted) >= case.mu_0:
         raise ValueError(
             f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c"
         )
@@ -156,12 +164,13 @@ def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, v_c: Any) -> _Wis
     return _Wish(lambda one, accuracy: _settled(one, speed, accuracy), wanted, what, "")
 
 
-def _settled(case: SlidingContact, v_0: float, accuracy: float) -> tuple[float, float]:
-    """Friction [-] and its error. Raises ValueError where the run does not settle."""
+def _settled(case: SlidingContact, v_0: float, accuracy: float, in_full_slip: bool = False) -> tuple[float, float]:
+    """Friction [-], or over that of full slip, and its error. Raises ValueError where the run does not settle."""
     cof, error, why = friction_at(case, v_0, accuracy)
     if why:
         raise ValueError(why)
-    return cof, error
+    unit = full_cof(resolved(case)) if in_full_slip else 1.0
+    return cof / unit, error / unit
 
 
 def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, Any]) -> tuple[float, float]:

@@ -316,6 +316,8 @@ def _alike(names: list[str], correlation: Array) -> list[str]:
 
 def _beyond(case: SlidingContact, model: _Model) -> list[str]:
     """Friction above the local coefficient, which no contact shows."""
+    if case.tau_0 or "tau_0" in {one.path for one in model.free}:
+        return []
     above = model.data.cof - case.mu_0 - (0.0 if model.data.error is None else ERRORS * model.data.error)
     if "mu_0" in {one.path for one in model.free} or case.is_shaken or not above.max() > 0:
         return []

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.contact import KINDS, OF_FACE, SlidingContact
 from mdr.case.paths import GROUPS, HOLD, RIG, facts_at
 from mdr.given.vary import case_at, value_at
 from mdr.materials.base import poisson_ratio_of
@@ -106,7 +106,7 @@ def path_of(case: SlidingContact, name: Any) -> str:
         raise TypeError(f"parameters must be names, got {short(repr(name))}")
     known = [f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot))]
     numbers = [path for path in known if isinstance(value_at(case, path), int | float)]
-    if name in ("mu_0", "mindlin_ratio", *GROUPS, *RIG, *numbers):
+    if name in (*OF_FACE, "mindlin_ratio", *GROUPS, *RIG, *numbers):
         return name
     ends = [path for path in numbers if path.partition(".")[2] == name]
     if len(ends) == 1:
@@ -115,7 +115,7 @@ def path_of(case: SlidingContact, name: Any) -> str:
     meant = (
         f"is {' or '.join(ends)}"
         if ends
-        else f"is no parameter of this case; {offer(name, ['mu_0', 'mindlin_ratio', *short_names])}"
+        else f"is no parameter of this case; {offer(name, [*OF_FACE, 'mindlin_ratio', *short_names])}"
     )
     raise ValueError(f"{short(name)} {meant}")
 

@@ -40,7 +40,11 @@ from mdr.tools.summary import Summarised, Summary, number
 LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
-#: why a contact that is shaken across has no critical velocity
+#: why a curved elastic face with a shear strength has no critical velocity, and one that is shaken across
+AT_THE_EDGE = (
+    "springs that the edge of contact reaches stick at any velocity, as the shear strength of the face gives them a "
+    "limit that grows faster than any pull"
+)
 ACROSS = (
     "shaken across the pull, friction is less than mu_0 at every velocity, as its direction follows that of slip: what "
     "is missing falls like 1/v_0² (mdr.laws.lost_across)"
@@ -151,8 +155,8 @@ def measure_critical_velocity(
     # stick is told from none within 2e-6 of v_c
     half_width = max(2 * accuracy_of(accuracy), 2e-6)  # accuracy is a quarter of the width
     search = _Search(resolved(case).pulled(direction), start, half_width)
-    if search.case.moves_across:
-        return MeasuredVelocity(None, None, None, "none", ACROSS)
+    if search.case.moves_across or search.case.always_sticks:
+        return MeasuredVelocity(None, None, None, "none", ACROSS if search.case.moves_across else AT_THE_EDGE)
     with time_limit(limit_s):
         try:
             return search.measure()
@@ -347,7 +351,7 @@ class _Search:
             elif _is_reduced(run) and _is_reduced(self.run(run.v_0, start)):
                 why = f"stick ends at {v_c:.6g} m/s, but a run from {start} keeps friction reduced at {run.v_0:.6g} m/s"
                 return self._without("unsettled", f"{why}: no two steady motions do that, so one has not settled")
-        why = "stick ends and the COF reaches mu_0 at the same velocity"
+        why = "stick ends and friction is full at the same velocity"
         if len(unsettled) == 2 * len(factors):
             why = "stick ends at this velocity"
         if unsettled:
@@ -367,4 +371,4 @@ def _is_free(run: SlidingRun) -> bool:
 
 
 def _is_reduced(run: SlidingRun) -> bool:
-    return run.settled and run.mu_0 - run.cof > run.cof_error
+    return run.settled and run.full_cof - run.cof > run.cof_error

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.coulomb import of_coulomb
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import cof_curve
@@ -53,6 +54,7 @@ class HoldingBand:
         return self.low - self.error <= finite("load", load) <= self.high + self.error
 
 
+@of_coulomb
 def holding_band(case: SlidingContact) -> HoldingBand:
     """Loads [-], mean F_x over mean F_z, that a contact holds at rest, neither creeping nor driving.
 
@@ -94,6 +96,7 @@ def holding_band(case: SlidingContact) -> HoldingBand:
 
 
 @remembered(maxsize=16)  # a command asks for it more than once
+@of_coulomb
 def band_of_pull(case: SlidingContact) -> HoldingBand:
     """Both limits of friction at rest of a case of known depth, under its own pull; ValueError as in `holding_band`."""
     accuracy = LEAST_ACCURATE if case.moves_across else BUDGET  # where two slow runs tell the limit, no more is known
@@ -108,6 +111,7 @@ def band_of_pull(case: SlidingContact) -> HoldingBand:
     return HoldingBand(low=min(low, high), high=max(low, high), error=error)
 
 
+@of_coulomb
 def blocked_cof(case: SlidingContact) -> float:
     """Mean F_x over mean F_z [-] of a contact whose pull does not move, where it is one number.
 
@@ -146,6 +150,7 @@ def blocked_cof(case: SlidingContact) -> float:
     return float(beyond(EXACT * case.mu_0, 0.5 * (band.low + band.high)))
 
 
+@of_coulomb
 def no_load_velocity(case: SlidingContact) -> float:
     """Velocity [m/s] at which a shaken contact runs that nothing holds back: where the mean F_x is zero.
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
 from mdr.case.paths import facts_at, fields_set
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
@@ -180,7 +180,7 @@ def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[
 
 def _inputs(case: SlidingContact, held: Mapping[str, Any]) -> list[str]:
     """The numbers of a case that are not zero, by what they were set with."""
-    known = ["mu_0", *(f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot)))]
+    known = [*OF_FACE, *(f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot)))]
     paths = [path for path in known if isinstance(value := value_at(case, path), float) and value]
     alike = {value_at(case, path) for path in fields_set("frequency") if path in paths}
     for setting in (*(("frequency",) if len(alike) == 1 else ()), *held):

@@ -18,7 +18,15 @@ from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
-from mdr.friction.measured_velocity import ACROSS, HIGHEST, LEAST, MeasuredVelocity, measure_critical_velocity
+from mdr.closed_forms.laws.strength import velocity_of_share
+from mdr.friction.measured_velocity import (
+    ACROSS,
+    AT_THE_EDGE,
+    HIGHEST,
+    LEAST,
+    MeasuredVelocity,
+    measure_critical_velocity,
+)
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space
 from mdr.march.periodic.steady import BUDGET
@@ -92,7 +100,7 @@ class Verdict(Printed):
                 f"and {found.high:.8g}), against {self.eq_15:.6g} m/s: the formula lies "
                 f"{'inside' if self.holds else 'outside'} the measured interval"
             )
-        return f"{self.formula} {said}. {self.why[:1].upper()}{self.why[1:]}"
+        return f"{self.formula[:1].upper()}{self.formula[1:]} {said}. {self.why[:1].upper()}{self.why[1:]}"
 
     def _use(self, measured: float) -> str:
         """How good the formula is, and what to use in its place."""
@@ -222,13 +230,15 @@ def _at_rest(case: SlidingContact) -> str:
 
 def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy: float) -> Verdict:
     """The verdict on the pull forward."""
-    eq_15, full = critical_velocity(case), full_slip_critical_velocity(case)
+    eq_15, full = critical_velocity(case), _full_slip(case)
     found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.pace
     deviation: float | None = None
     holds: bool | None
     if case.moves_across:  # both closed forms say so too
         why = "; ".join([across(case), *_left_out(case)])
         return Verdict(eq_15, full, None, None, True, why, found, formula_of(case), within, least)
+    if case.always_sticks:
+        return Verdict(eq_15, full, None, None, True, _at_the_edge(case), found, formula_of(case), within, least)
     if found.v_c is None:
         holds = None if found.kind == "unsettled" else _holds_without_velocity(case, eq_15, full)
     elif not np.isfinite(eq_15):
@@ -242,14 +252,33 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         reasons = ["all springs stop sticking at the velocity that the formula gives for one spring"]
     elif found.v_c is None or not reasons:
         reasons.append(found.why)
+    if case.tau_0 and case.edge_moves:
+        reasons.append("with a shear strength v_c knows the relaxation time, and the depth as the shape has it")
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
+
+
+def _full_slip(case: SlidingContact) -> float:
+    """The velocity of full slip; NaN where it is not known."""
+    try:
+        return full_slip_critical_velocity(case)
+    except ValueError:
+        return float("nan")
+
+
+def _at_the_edge(case: SlidingContact) -> str:
+    """What takes the place of a critical velocity on a curved face with a shear strength."""
+    said = f"{AT_THE_EDGE}; what is lost falls like v_0^-3"
+    if case.pull.is_rigid and not case.rheology.remembers and not case.is_shaken:
+        back = velocity_of_share(case, 1 - NEARLY)
+        said += f": it is {100 * NEARLY:g} % at about {back:.3g} m/s, at which friction is back in practice"
+    return f"{said}; the deeper the contact, the slower the pull at which it is"
 
 
 def across(case: SlidingContact) -> str:
     """What takes the place of a critical velocity where a contact is shaken across its way."""
     said = ACROSS
-    if is_across_alone(case):
+    if is_across_alone(case) and not case.tau_0:
         rest, full, too_much = static_cof(case), full_across(case, NEARLY), _held_too_much(case)
         said += (
             f"; at rest it holds {rest:.4g} of the load, and springs stick for part of the period"
@@ -268,7 +297,7 @@ def across(case: SlidingContact) -> str:
 
 def _held_too_much(case: SlidingContact) -> float:
     """By how much [-] springs hold more at rest than Coulomb's law in every point allows; 0 where it is not known."""
-    if not is_across_alone(case) or case.indenter.least_depth > 0:
+    if not is_across_alone(case) or case.indenter.least_depth > 0 or case.tau_0:
         return 0.0
     return static_across(case) - static_across(case, surface=True)
 
@@ -317,7 +346,12 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
 
 def _left_out(case: SlidingContact) -> Iterator[str]:
     """The part of the sentence about normal-tangential coupling, where it matters."""
-    beta, rub = case.material.dundurs_beta, radial_rub(case)
+    beta = case.material.dundurs_beta
+    if case.tau_0:
+        if abs(beta) > STRONG:
+            yield f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f})"
+        return
+    rub = radial_rub(case)
     left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
     if is_across_alone(case):
         stiffer = stiffened_by_coupling(case.material)

@@ -31,6 +31,7 @@ def rig(
     material: Material,
     mu_0: float,
     *,
+    tau_0: float = 0.0,
     frequency: float,
     load: float | None = None,
     load_grams: float | None = None,
@@ -56,6 +57,8 @@ def rig(
         The half-space.
     mu_0 : float
         Coefficient of friction without vibration [-].
+    tau_0 : float
+        Shear strength of the face besides [Pa].
     frequency : float
         Frequency of the vibration [Hz], not the angular one.
     load, load_grams : float
@@ -148,7 +151,7 @@ def rig(
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
         motion = NormalOscillation(0.0, du_z, omega)
     parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
-    settings = {"mu_0": mu_0, "load": F_z0} | ({} if hold is None else {HOLD: hold})
+    settings = {"mu_0": mu_0, "tau_0": tau_0, "load": F_z0} | ({} if hold is None else {HOLD: hold})
     case = contact_of(parts, settings)
     warn_of_load(settings, case)
     if density is not None:

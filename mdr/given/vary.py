@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
 from mdr.case.motion import Motion
 from mdr.case.paths import HOLD, RIG, SET, fields_set, hold_of
 from mdr.given.mean_load import under_mean_load, warn_of_mean_loads
@@ -65,7 +65,8 @@ def warn_of_load(settings: Mapping[str, Any], case: SlidingContact, where: str =
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
     """The case with these paths set to these values; what its records refuse is raised as they word it."""
-    return contact_of({slot: getattr(case, slot) for slot in KINDS}, {"mu_0": case.mu_0, **settings})
+    of_face = {name: getattr(case, name) for name in OF_FACE}
+    return contact_of({slot: getattr(case, slot) for slot in KINDS}, {**of_face, **settings})
 
 
 def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> SlidingContact:
@@ -101,7 +102,8 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
-    contact = SlidingContact(mu_0=settings["mu_0"], **{slot: changed(slot) for slot in parts})
+    of_face = {name: settings[name] for name in OF_FACE if name in settings}
+    contact = SlidingContact(**of_face, **{slot: changed(slot) for slot in parts})
     for path, field_of in _FIELD_OF.items():
         if path in settings:
             contact = _with(contact, path, field_of(contact, path, settings[path]))

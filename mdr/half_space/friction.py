@@ -12,6 +12,7 @@ from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
 from mdr.half_space.influence import HalfSpace, Z
 from mdr.half_space.steps import Contact, Step
+from mdr.normal.normal_force import full_cof
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
@@ -87,7 +88,8 @@ def last_period(
     contact = contact_of(case, settings)
     depth, way, dt = path(case, v_0, settings)
     toward = 0.0 if settings.from_rest else np.copysign(1.0, v_0)
-    far = 0.0 if arrived or not (settings.from_rest or case.moves_across) else case.mu_0 * case.material.mindlin_ratio
+    far = 0.0 if arrived or not (settings.from_rest or case.moves_across) else case.reach(case.u_z_max)
+    full = full_cof(case)
     state, forces = start or contact.full_slip(float(depth[0]), toward), []
     ticker = Ticker("half-space", parts="steps")
     for _ in range(settings.cycles):
@@ -98,9 +100,9 @@ def last_period(
         state = steps[-1]
         forces.append([contact.forces(step.tractions) for step in steps])
         friction = Friction.over(np.array(forces))
-        if abs(v_0) * case.period * len(forces) < far * float(depth.max()):
-            friction = replace(friction, settling=2 * case.mu_0)
-        if (len(forces) > 2 and friction.settling <= settings.settled * case.mu_0) or time_is_over():
+        if abs(v_0) * case.period * len(forces) < far:
+            friction = replace(friction, settling=2 * full)
+        if (len(forces) > 2 and friction.settling <= settings.settled * full) or time_is_over():
             break
     return LastPeriod(friction, contact, tuple(steps))
 
@@ -127,7 +129,9 @@ def contact_of(case: SlidingContact, settings: Settings) -> Contact:
     height = np.full(r.shape, np.inf)  # where the shape has ended
     height[r <= shape.max_radius] = shape.profile_3d(r[r <= shape.max_radius])
     turning = case.moves_across and not material.tau
-    return Contact(half_space, height, case.mu_0, material.tau, transverse=settings.transverse, turning=turning)
+    return Contact(
+        half_space, height, case.mu_0, material.tau, case.tau_0, transverse=settings.transverse, turning=turning
+    )
 
 
 def path(case: SlidingContact, v_0: float, settings: Settings) -> tuple[Array, Array, float]:
@@ -143,7 +147,7 @@ def path(case: SlidingContact, v_0: float, settings: Settings) -> tuple[Array, A
 
 def stuck(contact: Contact, step: Step) -> NDArray[np.bool_]:
     """Which cells stick in a step, (n, n)."""
-    below = np.hypot(*step.tractions[:2]) < BELOW * contact.mu_0 * step.pressure
+    below = np.hypot(*step.tractions[:2]) < BELOW * contact.limit(step.pressure)
     return np.asarray((step.pressure > 0) & below)
 
 

@@ -18,9 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
+from mdr.case.coulomb import greatest
 from mdr.half_space.friction import Friction, LastPeriod, Settings, contact_of, last_period, stuck
 from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Step
+from mdr.normal.normal_force import full_cof
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite, positive, row
 from mdr.tools.companions import Companion, bound
@@ -61,6 +63,7 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
     mean_F_z: float  #: [N]
     v_0: float  #: pulling velocity [m/s]
     mu_0: float  #: local coefficient of friction [-]
+    full_cof: float  #: COF of full slip [-]: mu_0, or what a shear strength of the face makes of it
     coupled: bool  #: False: normal-tangential coupling was left out
     cells: int  #: along each side of the grid
     steps_per_period: int  #: time steps of one period
@@ -76,10 +79,11 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
     def _summary(self) -> Summary:
         size = f"{self.cells} x {self.cells} cells, {self.steps_per_period} steps per period, {self.n_periods} periods"
         parts = f"grid {self.grid_error:.1e}, step {self.step_error:.1e}, cycle {self.cycle_error:.1e}"
+        full = greatest(self.full_cof, self.mu_0)
         return Summary(
             f"HalfSpaceRun at v_0 = {number(self.v_0, 'm/s')}{'' if self.coupled else ', without coupling'}",
             [
-                ("COF", with_error(self.cof, self.cof_error), f"{self.cof / self.mu_0:.6g} of mu_0 = {self.mu_0:.6g}"),
+                ("COF", with_error(self.cof, self.cof_error), f"{self.cof / self.full_cof:.6g} of {full}"),
                 ("COF across", with_error(self.cof_y, self.cof_error), "of the force across the pull"),
                 ("error", number(self.cof_error), parts),
                 ("settled", "yes" if self.settled else "no", self.kind),
@@ -136,6 +140,7 @@ class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
     settled: NDArray[np.bool_]  #: whether the run settled
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
     mu_0: float  #: local coefficient of friction [-]
+    full_cof: float  #: COF of full slip [-]: mu_0, or what a shear strength of the face makes of it
     coupled: bool  #: False: normal-tangential coupling was left out
     why: tuple[str, ...]  #: what the runs had to say, "" where nothing
 
@@ -145,7 +150,7 @@ class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
         return Summary(
             f"HalfSpaceCurve at {n} velocities, {span(self.v_0, 'm/s')}{'' if self.coupled else ', without coupling'}",
             [
-                ("COF", span(self.cof), f"of mu_0 = {self.mu_0:.6g}"),
+                ("COF", span(self.cof), f"of {greatest(self.full_cof, self.mu_0)}"),
                 ("COF across", span(self.cof_y), "of the force across the pull"),
                 ("error", span(self.cof_error), f"greatest parts: {parts}"),
                 ("settled", f"{settled} of {n}", ""),
@@ -309,7 +314,7 @@ def curve(
     names = ("cof", "cof_y", "cof_error", "grid_error", "step_error", "cycle_error", "settled", "stick_share")
     columns = {name: np.array([getattr(run, name) for run in found]) for name in names}
     why = tuple(run.why for run in found)
-    return HalfSpaceCurve(v_0=velocities, mu_0=case.mu_0, coupled=coupled, why=why, **columns)
+    return HalfSpaceCurve(v_0=velocities, mu_0=case.mu_0, full_cof=full_cof(case), coupled=coupled, why=why, **columns)
 
 
 # --- what was asked for ---
@@ -364,7 +369,7 @@ def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: End
     }
     begin = {"wide": near.wide, "halved": fine.steps[-1] if settings.settled else near.halved}
     least = _least(case, settings)
-    told, ends = dict.fromkeys(coarser, Companion(2 * case.mu_0)), near._replace(fine=fine.steps[-1])
+    told, ends = dict.fromkeys(coarser, Companion(2 * full_cof(case))), near._replace(fine=fine.steps[-1])
     for name, other in coarser.items():
         if time_is_over():
             break
@@ -383,7 +388,8 @@ def _least(case: SlidingContact, settings: Settings) -> dict[str, float]:
     """
     lag = case.T / np.hypot(1.0, case.T)
     by_steps = 1.5 / settings.steps**2 + 0.7 * lag / settings.steps
-    return {"wide": 0.12 * case.mu_0 / settings.cells**1.5, "halved": by_steps * case.mu_0}
+    full = full_cof(case)
+    return {"wide": 0.12 * full / settings.cells**1.5, "halved": by_steps * full}
 
 
 def _apart(one: Friction, other: Friction) -> float:
@@ -393,25 +399,26 @@ def _apart(one: Friction, other: Friction) -> float:
 def _record(
     case: SlidingContact, v_0: float, settings: Settings, last: LastPeriod, grid: Companion, step: Companion
 ) -> HalfSpaceRun:
-    found, mu_0 = last.friction, case.mu_0
-    rest = found.settling if found.cycles > 1 else 2 * mu_0  # between -mu_0 and mu_0 no two are further apart
-    settled = rest <= SETTLED * mu_0 and not time_is_over()
+    found, full = last.friction, full_cof(case)
+    rest = found.settling if found.cycles > 1 else 2 * full  # between -full and full no two are further apart
+    settled = rest <= SETTLED * full and not time_is_over()
     tractions = np.stack([one.tractions for one in last.steps])
     stick = np.stack([stuck(last.contact, one) for one in last.steps])
     share = float(tractions[:, Z][stick].sum() / tractions[:, Z].sum())
     places = last.contact.half_space.places
     return HalfSpaceRun(
         **{name: getattr(found, name) for name in ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")},
-        cof_error=min(bound(grid, step, Companion(rest)), 2 * mu_0),
+        cof_error=min(bound(grid, step, Companion(rest)), 2 * full),
         grid_error=grid.error,
         step_error=step.error,
         cycle_error=rest,
         settled=settled,
         kind="unsettled" if not settled else "periodic" if share else "full slip",
-        why="" if settled else "; ".join(_why_not(found, rest / mu_0)),
+        why="" if settled else "; ".join(_why_not(found, rest / full)),
         stick_share=share,
         v_0=v_0,
-        mu_0=mu_0,
+        mu_0=case.mu_0,
+        full_cof=full,
         coupled=settings.coupled,
         cells=settings.cells,
         steps_per_period=settings.steps,

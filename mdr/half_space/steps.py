@@ -48,6 +48,7 @@ class Contact:
     shape: Array
     mu_0: float
     tau: float = 0.0
+    tau_0: float = 0.0  #: shear strength besides [Pa]
     tolerance: float = 1e-6  #: to which forces change no more
     turns: int = 60  #: of pressure and friction in a step, at most
     transverse: bool = True  #: False: tractions and slip along the pull only, as springs have them
@@ -58,6 +59,10 @@ class Contact:
         """Area of a cell."""
         return self.half_space.h**2
 
+    def limit(self, pressure: Array) -> Array:
+        """The greatest traction along the surface [Pa] in cells of this pressure, of any shape."""
+        return self.mu_0 * pressure + self.tau_0 * (pressure > 0)
+
     def full_slip(self, depth: float, way: float = 1.0) -> Step:
         """The state at rest at this depth with all cells at their limit along x, to begin with; way: 1, or -1.
 
@@ -67,7 +72,7 @@ class Contact:
         tractions = np.zeros((3, n, n))
 
         def slipping(tractions: Array, _: float) -> Array:
-            return np.stack([way * self.mu_0 * tractions[Z], np.zeros((n, n))])
+            return np.stack([way * self.limit(tractions[Z]), np.zeros((n, n))])
 
         if self._take_turns(tractions, depth - self.shape, slipping, self.tolerance * 1e-2):
             raise NotConverged(
@@ -131,7 +136,7 @@ class Contact:
             asked = stick - self.half_space.displacement(tractions[Z:], (X, Y), (Z,))
             if not self.transverse:
                 asked[Y] = 0.0
-            bound, q = self.mu_0 * tractions[Z], tractions[:2]
+            bound, q = self.limit(tractions[Z]), tractions[:2]
             start = np.where(slips, _on_rims(q, bound), q)  # what slips does so under another pressure too
             found = traction(self._tangential, asked, bound, start, fine, stiff=self._stiff)
             slips = self._at_limit(np.stack([*found, tractions[Z]]))
@@ -174,7 +179,7 @@ class Contact:
     def _at_limit(self, tractions: Array) -> NDArray[np.bool_]:
         """Which cells slip, (n, n), but for rounding."""
         size = np.hypot(*tractions[:2])
-        limit: NDArray[np.bool_] = (size > 0) & (size >= (1 - EXACT) * self.mu_0 * tractions[Z])
+        limit: NDArray[np.bool_] = (size > 0) & (size >= (1 - EXACT) * self.limit(tractions[Z]))
         return limit
 
     # --- products ---

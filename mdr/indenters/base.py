@@ -16,7 +16,7 @@ checked: arrays of any shape, finite, 0 or above, and within the shape. What it 
 shape must not change.
 """
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,6 +32,8 @@ HELD = {"contact_radius", "force", "stiffness"}  #: what is compared with what f
 
 class Indenter(Mapped):
     """A rigid axisymmetric shape; give it ``profile_3d`` or ``profile_1d``."""
+
+    is_body: ClassVar[bool] = True  #: False where only its forces mean something, not its radius and pressure
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)

@@ -36,7 +36,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials import Material
 from mdr.normal.indentation_kernels import Row, force_of
 from mdr.normal.load_control import static_depths
-from mdr.spring.contact import Each, press
+from mdr.spring.contact import Each, Springs, press
 from mdr.spring.law import N_PHI, Law, law_of, phi_of
 from mdr.spring.path import Path
 from mdr.spring.times import Tools, tools_for
@@ -314,10 +314,12 @@ class _Springs:
             moves = (s[0] < u_1 - g) | ((self.law.T == 0) & (s[0] <= u_0 - g))  # a dashpot does not follow back
             s[1:, moves] += (u_1 - g - s[0])[moves]
             s[0, moves] = (u_1 - g)[moves]
-            press(s, g, g, Path(u_1, 0.0, 0.0, 0.0, 0.0), 0.0, *self.law, step, each)  # what has no load left is free
+            press(
+                s, Springs(g, g), Path(u_1, 0.0, 0.0, 0.0, 0.0), 0.0, *self.law, step, each
+            )  # what has no load left is free
         else:
             rate = (u_1 - u_0) / step.times.h
-            press(s, g, g, Path(u_0, rate, 0.0, 0.0, 0.0), rate, *self.law, step, each)
+            press(s, Springs(g, g), Path(u_0, rate, 0.0, 0.0, 0.0), rate, *self.law, step, each)
             np.copyto(s[0], u_1 - g, where=each.pressed_for > 0)
         return s
 

@@ -24,13 +24,16 @@ from mdr.case.motion import LoadOscillation
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials.operator import Rheology
 from mdr.normal.contact_edge import ContactEdge
-from mdr.normal.followed_force import N_STEPS, NormalCycle, normal_cycle
+from mdr.normal.followed_force import N_STEPS, NormalCycle, followed_springs, normal_cycle
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.memoise import remembered
 
 if TYPE_CHECKING:
-    from scipy.interpolate import CubicSpline
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+EDGE_GAPS = 257  #: depths of springs that tell where the edge of contact is, with arms
+FIRST = 1e-30  #: depth of a first touch, over the unit of depth
 
 
 @remembered(maxsize=8)
@@ -110,6 +113,51 @@ def load_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]]
     return load.F_z0, F_n
 
 
+def contact_radius(case: SlidingContact, phase: Array) -> Array:
+    """Radius of contact [m] at phases omega t of any shape, of a case of known depth: up to where springs press."""
+    cycle = case.cycle
+    edge = _followed_edge(case)(np.mod(phase, 2 * np.pi)) if case.material.contact_arms else edge_of(case).gap(phase)
+    depth = cycle.u_z0 + cycle.unit * edge
+    return np.asarray(case.indenter.contact_radius(np.maximum(depth, 0.0)))
+
+
+@remembered(maxsize=8)
+def _followed_edge(case: SlidingContact) -> PchipInterpolator:
+    """Gap at the edge of contact over the phase, with arms: springs at close depths are followed, and the phases at
+    which each touches and is let go are points of the curve.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    cycle, rheology = case.cycle, case.rheology
+    low, high = max(case.kept_gap, -cycle.u_z0 / cycle.unit), cycle.greatest
+    gap = low + (high - low) * np.sin(np.linspace(0, np.pi / 2, EDGE_GAPS)) ** 2  # closest where it turns
+    known = followed_springs(rheology, gap, np.ones(EDGE_GAPS), cycle, N_STEPS)
+    f, since = known.force, known.pressed_for
+    before = np.roll(since, 1, axis=0)
+    k, touched = np.nonzero((since > 0) & ((since < 1) | (before == 0)))
+    j, left = np.nonzero((since == 0) & (before > 0))
+    last, falls = f[j - 1, left], f[j - 2, left] - f[j - 1, left]  # the force goes to zero on a line
+    steps = 2 * np.pi / N_STEPS * np.arange(float(N_STEPS))
+    bears = harmonic_sum(cycle.harmonics * rheology.response(np.arange(1.0, cycle.cos.size + 1)), steps)
+    turns = [np.argmax(cycle.z(steps))] + [np.argmin(bears)] * case.keeps_contact
+    times = np.concatenate([turns, k + 1 - since[k, touched], j + np.clip(last / np.maximum(falls, 1e-300), 0, 1)])
+    time, at = np.unique(times % N_STEPS, return_index=True)
+    place = np.concatenate([[high], [low] * case.keeps_contact, gap[touched], gap[left]])[at]
+    time = np.concatenate([time - N_STEPS, time, time + N_STEPS])
+    return PchipInterpolator(2 * np.pi / N_STEPS * time, np.tile(place, 3))
+
+
+def mean_area(case: SlidingContact) -> float:
+    """Mean area of contact [m²] over the period."""
+    if case.material.contact_arms:
+        a = contact_radius(case, 2 * np.pi / N_STEPS * (np.arange(float(N_STEPS)) + 0.5))
+        known, touch = followed(case), float(case.indenter.contact_radius(FIRST * case.cycle.unit))
+        # a flat face is there at once, whenever in a step that is
+        lost = float(np.mod(known.touches - known.leaves, 2 * np.pi).sum()) / (2 * np.pi)
+        return float(np.pi * (np.mean(np.maximum(a, touch) ** 2) - touch**2 * lost))
+    return 0.5 * _integral(case, lambda phase: contact_radius(case, phase) ** 2)
+
+
 def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
     """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth; with joints
     also those at which pieces of a curve meet, where it is as smooth as a spline.
@@ -136,7 +184,18 @@ def mean_normal_force(case: SlidingContact) -> float:
     case = resolved(case)
     if case.oscillation.load is not None:
         return load_harmonics(case)[0]
-    instants = corners(case, joints=True)
-    instants = np.append(instants, instants[0] + 2 * np.pi)
-    mean = double_exponential().integral(lambda phase: _without_arms(case, phase)[0], instants) / (2 * np.pi)
+    mean = _integral(case, lambda phase: _without_arms(case, phase)[0]) / (2 * np.pi)
     return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
+
+
+def full_cof(case: SlidingContact) -> float:
+    """Mean friction of full slip over the mean normal force [-], of a case of known depth: mu_0, and what a shear
+    strength of the face adds, tau_0 times the mean area of contact.
+    """
+    return case.mu_0 + case.tau_0 * mean_area(case) / mean_normal_force(case) if case.tau_0 else case.mu_0
+
+
+def _integral(case: SlidingContact, function: Callable[[Array], Array]) -> float:
+    """Of a function of the phase over the period, which is smooth where the edge of the contact is."""
+    instants = corners(case, joints=True)
+    return float(double_exponential().integral(function, np.append(instants, instants[0] + 2 * np.pi)))

@@ -130,8 +130,9 @@ class SpringArray(Summarised, ArrayRecord):
 
 def springs_of(case: SlidingContact, n_springs: int, alike: float = np.inf) -> SpringArray:
     """What `SpringArray.of` answers. alike: gap [amplitudes] up to which springs that never lose contact do the same
-    but for their gap, as all of them do where nothing shakes in the plane and no body swings back.
+    but for their gap, as all of them do where nothing shakes in the plane, no body swings back, and friction is
+    Coulomb's alone.
     """
-    depths = Depths.of(case.cycle, case.kept_gap, -np.inf if case.is_shaken else alike)
+    depths = Depths.of(case.cycle, case.kept_gap, -np.inf if case.is_shaken or case.tau_0 else alike)
     x, gap, width, n_core = nodes(case.indenter, depths, n_springs)
     return SpringArray(x, gap, width, case.material.E_star, case.material.G_star, n_core)

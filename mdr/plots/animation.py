@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.plots.figures import COLOURS, MODES, mode_patches, periods_of, plot_forces, prefix, style
+from mdr.plots.figures import COLOURS, MODES, limit_of, mode_patches, periods_of, plot_forces, prefix, style
 from mdr.plots.leashes import Leashes
 from mdr.plots.side_view import SideView
 from mdr.tools.checks import count
@@ -102,9 +102,14 @@ def animate_springs(
     return Gif(path)
 
 
+def _of(run: Any) -> str:
+    """What the friction of a run is told over."""
+    return r"$\mu/\mu_0$" if run.strength is None else "share of full slip"
+
+
 def _title(run: Any) -> str:
     per, unit = prefix(run.v_0, "m/s")
-    return rf"$v_0$ = {run.v_0 * per:.3g} {unit}, $\mu/\mu_0$ = {run.cof / run.mu_0:.3f}"
+    return rf"$v_0$ = {run.v_0 * per:.3g} {unit}, {_of(run)} = {run.share:.3f}"
 
 
 class _Springs:
@@ -159,7 +164,7 @@ class _Force:
         self.ax, self.t = ax, periods_of(run)
         self.now = ax.axvline(0, color=COLOURS[1], linewidth=1.2, animated=True)
         (self.dot,) = ax.plot([], [], "o", color=COLOURS[1], zorder=3, animated=True)
-        per = prefix(np.concatenate([run.F_x, run.mu_0 * run.F_z]), "N")[0]
+        per = prefix(np.concatenate([run.F_x, limit_of(run)]), "N")[0]
         self.forces = np.stack([one * per for one in (run.F_x, run.F_y) if one is not None], axis=1)
 
     def show(self, k: int) -> None:

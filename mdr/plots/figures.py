@@ -21,6 +21,7 @@ __all__ = [
     "MODES",
     "around",
     "edges_of",
+    "limit_of",
     "periods_of",
     "plot_curve",
     "plot_fit",
@@ -105,13 +106,13 @@ def plot_curve(
     scaled = not absolute and all(_is_scale(curve.v_c) for curve in curves)
     both = any(np.min(curve.v_0) < 0 for curve in curves)
     factor, unit = prefix(np.concatenate([np.ravel(curve.v_0) for curve in curves]), "m/s")
-    scales = [(curve.v_c, curve.mu_0) if scaled else (1 / factor, 1.0) for curve in curves]
+    scales = [(curve.v_c, curve.full_cof) if scaled else (1 / factor, 1.0) for curve in curves]
     shades = colours(len(curves))
     with style():
         ax = axes_of(ax)
         for i, (curve, scale, colour) in enumerate(zip(curves, scales, shades, strict=True)):
             _draw_curve(ax, curve, scale, colour, labels[i] if labels else None)
-        for level in {curve.mu_0 / mu for curve, (_, mu) in zip(curves, scales, strict=True)}:
+        for level in {curve.full_cof / mu for curve, (_, mu) in zip(curves, scales, strict=True)}:
             _limits(ax, level, both)
         if both:
             _faint(ax.axhline, 0.0)
@@ -119,7 +120,8 @@ def plot_curve(
         _mark_critical(ax, curves, scales, shades, both)
         over_v_c = r"pulling velocity $v_0/v_c$" + (", $v_c$ of a forward pull" if both else "")
         ax.set_xlabel(over_v_c if scaled else rf"pulling velocity $v_0$ [{unit}]")
-        ax.set_ylabel(r"coefficient of friction $\mu/\mu_0$" if scaled else r"coefficient of friction $\mu$")
+        over = r"$\mu/\mu_0$" if all(curve.full_cof == curve.mu_0 for curve in curves) else "over that of full slip"
+        ax.set_ylabel("coefficient of friction " + (over if scaled else r"$\mu$"))
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
         settled, across = (np.all(curve.settled) for curve in curves), (_across(curve) is not None for curve in curves)
@@ -211,6 +213,12 @@ def plot_spring_maps(runs: Sequence[Any], labels: Sequence[str]) -> "Figure":
     return fig
 
 
+def limit_of(run: Any) -> "NDArray[np.float64]":
+    """The force of full slip at the instants of a record [N]: mu_0 F_z, and what a shear strength of the face adds."""
+    strength = 0.0 if run.strength is None else run.strength.sum(axis=1)
+    return np.asarray(run.mu_0 * np.asarray(run.F_z) + strength)
+
+
 def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
     """Tangential force and its limit mu_0 F_z against time; the shaded gap is the friction that is missing.
 
@@ -218,21 +226,22 @@ def plot_forces(run: Any, ax: "Axes | None" = None) -> "Axes":
     as under a shake in the plane, both limits are drawn and the mean is named instead. Shaken across, F_y is drawn too.
     """
     t = periods_of(_recorded(run))
-    limit, F_x, F_y = run.mu_0 * np.asarray(run.F_z), np.asarray(run.F_x), getattr(run, "F_y", None)
+    limit, F_x, F_y = limit_of(run), np.asarray(run.F_x), getattr(run, "F_y", None)
+    name = r"$\mu_0 F_z$" if run.strength is None else "full slip"
     factor, unit = prefix(np.concatenate([F_x, limit]), "N")
-    mean = run.mean_F_x / (run.mu_0 * run.mean_F_z)
+    mean = run.mean_F_x / (run.full_cof * run.mean_F_z)
     turns = F_y is not None or float(F_x.min()) < -1e-9 * float(limit.max())
     with style():
         ax = axes_of(ax)
         if turns:
             ax.fill_between(t, -limit * factor, limit * factor, color="0.9", linewidth=0)
             of = "mean" if F_y is None else "mean $F_x$"
-            ax.axhline(run.mean_F_x * factor, color="0.4", lw=1, ls="--", label=rf"{of}, {mean:.3g} $\mu_0F_z$")
+            ax.axhline(run.mean_F_x * factor, color="0.4", lw=1, ls="--", label=f"{of}, {mean:.3g} of {name}")
             ax.plot(t, -limit * factor, color="0.6")
         else:
             gap = f"{100 * (1 - mean):.3g} % missing" if mean < 1 - 1e-6 else "nothing missing"
             ax.fill_between(t, F_x * factor, limit * factor, color="0.9", linewidth=0, label=gap)
-        ax.plot(t, limit * factor, color="0.6", label=r"$\mu_0 F_z$, the limit")
+        ax.plot(t, limit * factor, color="0.6", label=f"{name}, the limit")
         ax.plot(t, F_x * factor, color="k", label="$F_x$")
         if F_y is not None:
             ax.plot(t, F_y * factor, color=COLOURS[0], label="$F_y$")
@@ -369,7 +378,7 @@ def _draw_curve(ax: "Axes", curve: Any, scale: tuple[float, float], colour: Any,
     size = 4.0 if len(v) <= 40 else 2.2
     ax.plot(v[settled], mu[settled], "o", color=colour, markersize=size, zorder=3)
     ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=size + 0.5, zorder=3)
-    seen = error * scale[1] / curve.mu_0 > 0.005
+    seen = error * scale[1] / curve.full_cof > 0.005
     if np.any(seen):
         ax.errorbar(v[seen], mu[seen], error[seen], fmt="none", ecolor=colour, capsize=2, zorder=1)
     if np.isfinite(static) and np.min(curve.v_0) >= 0:

@@ -56,9 +56,10 @@ def plot_half_space(run: Any, instant: float | None = None) -> Figure:
 def _told(run: Any, wide: bool) -> str:
     """What to see, in one line or two."""
     space = " " if wide else "\n"
-    across = f", {run.cof_y / run.mu_0:.3f} across" if abs(run.cof_y) > SEEN * run.mu_0 else ""
+    across = f", {run.cof_y / run.full_cof:.3f} across" if abs(run.cof_y) > SEEN * run.full_cof else ""
+    full = r"$\mu_0$" if run.full_cof == run.mu_0 else "that of full slip"
     return (
-        f"Mean friction over $\\mu_0$: {run.cof / run.mu_0:.3f}{across}. Arrows: traction on the surface."
+        f"Mean friction over {full}: {run.cof / run.full_cof:.3f}{across}. Arrows: traction on the surface."
         f"{space}Inside the orange line cells stick, hatched cells slip."
     )
 
@@ -78,7 +79,7 @@ def _draw_instant(ax: Axes, run: Any, step: int, length: float, pressure: float)
         hatch.set_linewidth(0.0)
     if stick.any():
         ax.contour(x, y, stick.T.astype(float), levels=[0.5], colors=COLOURS[1], linewidths=1.8)
-    _arrows(ax, x, y, run.q_x[step], run.q_y[step], touching, run.mu_0 * run.pressure.max())
+    _arrows(ax, x, y, run.q_x[step], run.q_y[step], touching, float(np.hypot(run.q_x, run.q_y).max()) or 1.0)
     ax.set_aspect("equal")
     return colour
 
@@ -121,7 +122,7 @@ def plot_half_space_curve(curve: Any, ax: Axes | None = None) -> Axes:
     with style():
         ax = axes_of(ax)
         parts = {"along the pull": curve.cof}
-        if np.any(np.abs(curve.cof_y) > SEEN * curve.mu_0):
+        if np.any(np.abs(curve.cof_y) > SEEN * curve.full_cof):
             parts["across the pull"] = curve.cof_y
         for colour, (name, cof) in zip(COLOURS, parts.items(), strict=False):
             mu = cof[order]
@@ -130,7 +131,7 @@ def plot_half_space_curve(curve: Any, ax: Axes | None = None) -> Axes:
             ax.plot(v[~settled], mu[~settled], "o", mfc="white", mec=colour, markersize=5)
         if not settled.all():
             ax.plot([], [], "o", mfc="white", mec="0.3", label="not settled")
-        for level in {curve.mu_0, np.copysign(curve.mu_0, v[0])}:
+        for level in {curve.full_cof, np.copysign(curve.full_cof, v[0])}:
             ax.axhline(level, color="0.75", linewidth=0.8, zorder=0)
         ax.set(xlabel=rf"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
         if len(ax.get_legend_handles_labels()[0]) > 1:

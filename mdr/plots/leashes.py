@@ -24,6 +24,8 @@ class Leashes:
         path = np.stack([run.u_x - run.v_0 * run.t, run.u_y], axis=1)
         feet = path[:, None] - np.stack([run.e[:, some], run.e_y[:, some]], axis=2)
         reach = 0 * run.s[:, some] if k_x is None else run.mu_0 * run.f_z[:, some] / k_x[some]
+        if k_x is not None and run.strength is not None:
+            reach = reach + run.strength[:, some] / k_x[some]
         half = 1.08 * float(max(np.abs(path[:, 1]).max() + reach.max(), np.abs(feet[..., 1]).max()))
         per, unit = prefix(half, "m")
         self.ax, self.path, self.feet, self.reach = ax, path * per, feet * per, reach * per

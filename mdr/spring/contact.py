@@ -8,7 +8,7 @@ the material (law.py) a spring
 * *flies*: s and e recover without force, L[s] = L[e] = 0, until the indenter meets the surface again, z - gap = s.
 
 All is scaled: forces by the long-time stiffness, tangential lengths by mu_0 kappa, so that Coulomb's law is
-|L[e]| <= L[s].
+|L[e]| <= L[s]; a shear strength of the face adds to this limit (face.py).
 
 While it presses, friction moves e: a function of a stretch of contact that is handed in (line.py, disc.py), or None.
 What happens is exact from event to event, so that the only error of a step is that of the parabolas. Elastic springs,
@@ -23,9 +23,31 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.contact_modes import FREE, SLIP_BACK, STICK
-from mdr.spring.energies import LEAST_SLIP, NORMAL_VISCOUS, SHEAR_VISCOUS, Nodes, stored
+from mdr.spring.energies import (
+    CONTACT_IMPULSE,
+    FRICTION_LOSS,
+    LEAST_SLIP,
+    NORMAL_VISCOUS,
+    NORMAL_WORK,
+    SHEAR_VISCOUS,
+    Nodes,
+    of_pressing,
+    stored,
+)
+from mdr.spring.face import raise_to_limit, strength, strengths
 from mdr.spring.motion import alone, end_force, glassy, held_force, hold, into_modes, relax, until_alone, until_held
-from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, along, below, on_parabola, plus, size_of, stays
+from mdr.spring.path import (
+    FAST,
+    LENT,
+    NEVER,
+    ROUNDING,
+    along,
+    below,
+    on_parabola,
+    plus,
+    size_of,
+    stays,
+)
 from mdr.spring.times import PART, STEP, fill
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
@@ -34,6 +56,14 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
 MOST_EVENTS = 100  #: of a spring in one step or stretch of contact; what comes after the last would be left out
+
+
+class Springs(NamedTuple):
+    """A row of springs."""
+
+    gap: Array  #: (n,) depth of each foot below the mean surface position
+    w: Array  #: (n,) share of each spring in the stiffness
+    x2: Array | None = None  #: (n,) x² of each, in the unit of a Face; None where friction is Coulomb's alone
 
 
 class Answer(NamedTuple):
@@ -128,14 +158,46 @@ def within(f, R):
 
 
 @_inline
-def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def rubbed(face, springs, rub, s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look):
+    """Friction of spring i over a stretch of contact: that of `rub`, for the limit L[s] or that of a face."""
+    if face is None:
+        return rub(s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
+    kept, x2 = tools.room.kept, springs.x2[i]
+    for j in range(s.shape[0]):
+        kept[j, 0] = s[j, i]
+    if look is not None:  # work and heat are those of the compression; the impulse is that of the limit
+        impulse = look.sums[CONTACT_IMPULSE]
+        of_pressing(look.sums, w, s, i, z[0], z[1], t, tools.times.h, look.nodes, T, modes, arms)
+        look.sums[CONTACT_IMPULSE] = impulse
+        work, viscous = look.sums[NORMAL_WORK], look.sums[NORMAL_VISCOUS]
+    A, B = hold(kept, 0, z[0], z[1], t, k, T, tools, arms)
+    q = raise_to_limit(s, i, z, strengths(face, x2, done, t), t, face.coulomb, T, arms)
+    tol += ROUNDING * (abs(s[0, i]) + size_of(e[0, i]))
+    of = rub(s, e, i, w, q, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
+    for j in range(s.shape[0]):
+        s[j, i] = kept[j, 0]
+    if look is not None:
+        look.sums[NORMAL_WORK], look.sums[NORMAL_VISCOUS] = work, viscous
+    return Friction(of.mode, of.n, of.vel, of.area, of.moment, of.stuck, of.stuck_moment, A, done * A + B)
+
+
+@_inline
+def limit_of(face, springs, i, R, h):
+    """The limit of spring i at the end of a step, where its normal force is R."""
+    if face is None:
+        return R
+    return face.coulomb * R + strength(face, springs.x2[i], h)
+
+
+@_inline
+def one_row(rub, indices, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     """Springs over a step; s and e are updated, an Answer comes out.
 
     rub: function of the friction over a stretch of contact, rub_line or rub_disc; or None, as e, for the normal part
     alone. indices: numbers of the springs, or None for all. T, modes, arms: of the law (law.py). The others as of
     row.py. What is None is compiled away.
     """
-    h, G = tools.times.h, glassy(arms)
+    gap, w, h, G = springs.gap, springs.w, tools.times.h, glassy(arms)
     area = moment = end = nothing = 0.0 * path.x_1  # a number or a vector
     stuck = stuck_moment = sticking = back = 0.0
     normal_area = normal_moment = normal_end = pressed = 0.0
@@ -164,8 +226,10 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
                 fill(t, modes, arms, tools.times, PART)
             if not presses:
                 mode, pressed_for, before = FREE, 0.0, (0.0, 0.0)
-                if look is not None and modes is not None:  # without, nothing is lost in flight but a rounding
+                if look is not None and modes is not None:
                     before = stored(s, i, arms), stored(e, i, arms)
+                if look is not None and modes is None:  # a shear strength may let it go with a force: it springs back
+                    look.sums[FRICTION_LOSS] += w[i] * stored(e, i, arms)
                 relax(s, i, k, modes, arms, tools.room.modes, tools.times)
                 if e is not None:
                     relax(e, i, k, modes, arms, tools.room.vectors, tools.times)
@@ -181,7 +245,27 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
                     normal_moment += w[i] * (done * A + B)
                 else:
                     z, x = (z_1, path.z_2), (path.x_1 + 2.0 * path.x_2 * done, path.x_2)
-                    of = rub(s, e, i, w[i], z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
+                    of = rubbed(
+                        path.face,
+                        springs,
+                        rub,
+                        s,
+                        e,
+                        i,
+                        w[i],
+                        z,
+                        x,
+                        t,
+                        k,
+                        done,
+                        tol,
+                        rate_miss,
+                        T,
+                        modes,
+                        arms,
+                        tools,
+                        look,
+                    )
                     mode, n, vel = of.mode, of.n, of.vel
                     area, moment = area + w[i] * of.area, moment + w[i] * of.moment
                     stuck, stuck_moment = stuck + w[i] * of.stuck, stuck_moment + w[i] * of.stuck_moment
@@ -205,7 +289,8 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
             normal_end += w[i] * R
             pressed += w[i] if R > 0.0 else 0.0
             if rub is not None:
-                f = within(end_force(e, i, xd, T, arms), R) if mode == STICK else n * R
+                most = limit_of(path.face, springs, i, R, h)
+                f = within(end_force(e, i, xd, T, arms), most) if mode == STICK else n * most
                 end += w[i] * f
                 sticking += w[i] if mode == STICK else 0.0
                 back += w[i] if mode == SLIP_BACK else 0.0
@@ -227,6 +312,6 @@ def one_row(rub, indices, s, e, gap, w, path, zd, xd, T, modes, arms, tools, exc
 
 
 @_call
-def press(s, gap, w, path, zd, T, modes, arms, tools, each):
+def press(s, springs, path, zd, T, modes, arms, tools, each):
     """The normal part of `row` (row.py) alone; s is updated."""
-    return one_row(None, None, s, None, gap, w, path, zd, 0.0, T, modes, arms, tools, None, each, None)
+    return one_row(None, None, s, None, springs, path, zd, 0.0, T, modes, arms, tools, None, each, None)

@@ -105,7 +105,7 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tool
                 look.sums[SHEAR_VISCOUS] += w * lost
             else:
                 ways = (z_1, z_2), (x_1, x_2)
-                of_slipping(look.sums, w, sign, s, e, i, *ways, u, h, look.nodes, T, modes, arms, tools.room.more)
+                of_slipping(look.sums, w, sign, s, e, i, *ways, u, h, look.nodes, T, modes, arms, tools.room.work)
         # the state after that time
         A, B = hold(s, i, z_1, z_2, u, k, T, tools, arms)
         pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B

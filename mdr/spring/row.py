@@ -1,8 +1,8 @@
 """The step of a row of springs with friction, `row`: along a line, or in the plane where e is complex. Lengths are
-scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py). Without arms and a
-look, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
+scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py). Without arms, a look
+and a face, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
 
-gap, w (n,): depth of each foot, share in the stiffness. s, e (1 + J, n), updated: row 0 is compression and extension,
+springs: Springs. s, e (1 + J, n), updated: row 0 is compression and extension,
 row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: of the step (times.py). excess,
 along a line: None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the end, and of -2 w s of
 those that slip back, for `as_they_are`. each: None or Each. look: None or Look. Out comes an Answer.
@@ -21,7 +21,7 @@ from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
 from mdr.spring.line import rub_line
 from mdr.spring.motion import hold
-from mdr.spring.path import FAST, LENT, OWN
+from mdr.spring.path import FAST, LENT, OWN, Path
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.jit import compiled, inner
@@ -31,16 +31,16 @@ _OWN: Any = {"error_model": "numpy", "fastmath": FAST, **OWN}
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
 
-def row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     """The step; a compiled function calls it."""
-    lean = arms is None and look is None
+    lean = arms is None and look is None and path.face is None
     of = _row(np.iscomplexobj(e), lean, lean and each is None)
-    return of(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    return of(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
 @overload(row, inline="never", jit_options=_OWN)
-def _(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    lean = isinstance(arms, NoneType) and isinstance(look, NoneType)
+def _(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    lean = all(isinstance(one, NoneType) for one in (arms, look, path.types[Path._fields.index("face")]))
     return _row(isinstance(e.dtype, Complex), lean, lean and isinstance(each, NoneType))
 
 
@@ -51,30 +51,32 @@ def _row(in_plane, lean_in_plane, lean):
     return _on_line_lean if lean else _on_line
 
 
-def _on_line(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def _on_line(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     if excess is not None:
         excess[:] = 0.0
-    return one_row(rub_line, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    return one_row(rub_line, None, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
-def _on_line_lean(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def _on_line_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     if excess is not None:
         excess[:] = 0.0
+    gap, w = springs.gap, springs.w
     made, others, n = np.empty(gap.size), np.empty(gap.size, np.int64), 0
     of = whole_on_line(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, excess, made)
     for i in range(gap.size):
         if made[i] == 0.0:
             others[n] = i
             n += 1
-    rest = one_row(rub_line, others[:n], s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    rest = one_row(rub_line, others[:n], s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
     return both(of, rest)
 
 
-def _in_plane(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    return one_row(rub_disc, None, s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
+def _in_plane(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    return one_row(rub_disc, None, s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
 
 
-def _in_plane_lean(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def _in_plane_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+    gap, w = springs.gap, springs.w
     made, others, n = np.empty(4 * gap.size), np.empty(gap.size, np.int64), 0
     of = whole_in_plane(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, each, made)
     for i in range(gap.size):
@@ -83,7 +85,7 @@ def _in_plane_lean(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, ea
         else:
             others[n] = i
             n += 1
-    rest = one_row(rub_disc, others[:n], s, e, gap, w, path, zd, xd, T, modes, arms, tools, None, each, look)
+    rest = one_row(rub_disc, others[:n], s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
     return both(of, rest)
 
 

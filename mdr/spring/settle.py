@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mdr.spring.contact import Each, press
+from mdr.spring.contact import Each, Springs, press
 from mdr.spring.law import Law
 from mdr.spring.path import Path
 from mdr.spring.times import Tools, tools_for
@@ -106,12 +106,12 @@ def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, pressed_for)
     each = Each(np.empty(n), np.empty(n), np.empty(n))
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
-        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
+        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0, None)
         before, flies = 0.0, True
         for i in range(n):
             before += w[i] * s[0, i]
             flies = flies and s[0, i] > z[k] - gap[i]
-        of = press(s, gap, w, path, z_dot[k + 1], T, modes, arms, tools, each)
+        of = press(s, Springs(gap, w, None), path, z_dot[k + 1], T, modes, arms, tools, each)
         pressed, flight = 0.0, 0.0
         for i in range(n):
             pressed = max(pressed, each.pressed_for[i])

@@ -28,8 +28,8 @@ class Room(NamedTuple):
 
     modes: Array  #: (K,) of a compression, or of what is left alone in slip
     vectors: Array  #: (K,) of an extension, of its type
-    work: Array  #: (J + K,) of a function whose zero is sought
-    more: Array  #: (K,) of the account of energies
+    work: Array  #: (J + K,) of a function whose zero is sought, or of the account of energies
+    kept: Array  #: (1 + J, 1) of a compression
 
 
 class Tools(NamedTuple):
@@ -77,7 +77,7 @@ def new_tools(h, modes, arms, zero):
     J, K = times.arms.shape[2], times.decay.shape[1]
     of_modes = np.empty(K)
     vectors = of_modes * zero
-    return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty(K)))
+    return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty((1 + J, 1))))
 
 
 @inner(error_model="numpy", fastmath=FAST)

@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.contact import KINDS, OF_FACE, SlidingContact
 from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_set
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
@@ -213,13 +213,13 @@ def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
 def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     """Refuse a path that no case of the study has."""
     of_parts = dict.fromkeys(f"{slot}.{one}" for slot, has in parts.items() for part in has for one in fields_of(part))
-    if path in (*VELOCITIES, "mu_0", *parts) or any(field in of_parts for field in fields_set(path)):
+    if path in (*VELOCITIES, *OF_FACE, *parts) or any(field in of_parts for field in fields_set(path)):
         return
     slot, _, field = fields_set(path)[-1].partition(".")
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
-    known = [*VELOCITIES, "mu_0", *parts, *RIG, *GROUPS, *of_parts]
+    known = [*VELOCITIES, *OF_FACE, *parts, *RIG, *GROUPS, *of_parts]
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)
     whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""

@@ -112,6 +112,7 @@ CATALOGUE: dict[str, Quantity] = {
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
         CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction"),
         CurveQuantity("cof_y", "-", _cof_y, "the same across the pull, mean F_y over mean F_z"),
+        CurveQuantity("share", "-", _Attribute("share"), "cof over that of full slip, cof/mu_0 by Coulomb's law"),
         CurveQuantity("cof_error", "-", _Attribute("cof_error"), "bound on the numerical error of cof"),
         CurveQuantity("stick_share", "-", _Attribute("stick_share"), "force-weighted share of contact time in stick"),
         CurveQuantity("settled", "-", _Attribute("settled"), "1 where the run settled, else 0"),

@@ -26,7 +26,7 @@ def error_of(case):
 
 
 def test_the_examples_run():
-    rooms = laws.rigid_pull, laws.bodies, laws.shaken, laws.across, laws.random, laws.waveform, across
+    rooms = laws.rigid_pull, laws.bodies, laws.shaken, laws.across, laws.random, laws.waveform, laws.strength, across
     found = [doctest.testmod(room, extraglobs={"mdr": mdr, "np": np}) for room in rooms]
     assert sum(one.attempted for one in found) > 20
     assert not any(one.failed for one in found)

@@ -127,7 +127,7 @@ def test_a_wrong_link_is_refused_with_words(browser):
     browser.open("?mu_0=-1&indenter.shape=%22Kone%22")
     words = " ".join(browser.text(".refused"))
     assert "did you mean Cone?" in words
-    assert "mu_0 must be positive" in words
+    assert "mu_0 must not be negative" in words
 
 
 def test_the_case_is_downloaded_and_loaded_again(browser):

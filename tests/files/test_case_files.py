@@ -145,7 +145,7 @@ def test_every_fault_is_named_at_once():
         "[oscillation] omega must be positive, got -3.0 (angular frequency in rad/s)",
         "[pull] k_x is missing; leave [pull] out for a rigid pull",
         "[pull] m must not be negative, got -1.0 (mass in kg)",
-        "mu_0 must be positive, got -1.0 (coefficient of friction)",
+        "mu_0 must not be negative, got -1.0 (coefficient of friction)",
     ]
 
 

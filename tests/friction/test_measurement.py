@@ -24,7 +24,7 @@ def world(monkeypatch):
             end = ends(start, steps_per_period, n_periods) * UNIT
             free = v_0 > end
             return SimpleNamespace(
-                v_0=v_0, mu_0=case.mu_0, cof=case.mu_0 - (0 if free else 0.1), cof_error=1e-6,
+                v_0=v_0, full_cof=case.mu_0, cof=case.mu_0 - (0 if free else 0.1), cof_error=1e-6,
                 stick_share=0.0 if free else 0.5, least_slip=v_0 - end if free else 0.0,
                 settled=settled(v_0 / UNIT, start), n_springs=n_springs, steps_per_period=steps_per_period,
                 n_periods=n_periods,

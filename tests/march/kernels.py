@@ -44,9 +44,10 @@ class OnAMap(Stepper):
         head = np.zeros(HEAD)
         head[[N, N_T, N_WAYS]] = n, 2, 1
         self.kernel, self.block = Kernel(trimmed), np.concatenate([head, A.ravel(), b, [edge]])
-        self.v, self.tolerance, self.mean_F_z, self.n_periods = 0.0, tolerance, 1.0, 0
+        self.v, self.tolerance, self.mean_limit, self.n_periods = 0.0, tolerance, 1.0, 0
         drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
-        self.scaled = SimpleNamespace(drive=drive, body=body, in_plane=None, ways=1)
+        limit = SimpleNamespace(most=np.full(n, 1e300))  # no friction brings a state back
+        self.scaled = SimpleNamespace(drive=drive, body=body, limit=limit, faces=None, in_plane=None, ways=1)
         self.ticker, self.room = Ticker("map"), self.new_room(1)
         self.last = self.room[1]
 
@@ -54,6 +55,6 @@ class OnAMap(Stepper):
 def fixed_point(A, b, x, edge=np.inf, close=1e-10):
     """What the search of the march makes of such a map, which it knows to move slowly in the first two parts of x."""
     n_x = x.size
-    start = MarchState(x.copy(), np.full((1, n_x - 2), 1e300))  # no friction brings a state back
+    start = MarchState(x.copy(), np.zeros((1, n_x - 2)))
     how = Options(np.ones(n_x), np.eye(n_x)[:2], (), stable=False, memory=8, most=80, plain=3, at_once=100)
     return Shooting(OnAMap(A, b, edge, 20 * close), start, how).shoot()

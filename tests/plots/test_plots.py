@@ -26,6 +26,7 @@ def made_up_curve(v_c=0.04, static=0.3, **changes):
         stick_share=np.zeros(6),
         v_c=v_c,
         mu_0=0.5,
+        full_cof=0.5,
         static_cof=static,
         static_cof_back=None,
     )
@@ -43,7 +44,7 @@ def made_up_run(n_t=64, v_0=1e-3):
     F_z = 2 + np.cos(omega * t)
     return SimpleNamespace(
         t=t, u_x=u_x, F_x=0.4 * F_z, F_z=F_z, x=np.array([1e-5, 1e-4, 4e-4]), e=e, state=state, v_0=v_0,
-        mu_0=0.5, omega=omega, mean_F_x=0.8, mean_F_z=2.0,
+        mu_0=0.5, full_cof=0.5, strength=None, omega=omega, mean_F_x=0.8, mean_F_z=2.0,
     )  # fmt: skip
 
 

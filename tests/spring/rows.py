@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.spring import row as of
-from mdr.spring.contact import Each, Look, press
+from mdr.spring.contact import Each, Look, Springs, press
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, nodes_of
 from mdr.spring.law import law_of
 from mdr.spring.path import Path
@@ -24,9 +24,9 @@ MATERIALS = {
 
 
 @compiled(nogil=True, error_model="numpy")
-def row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     """The row of the library, which compiled functions alone may call."""
-    return of.row(s, e, gap, w, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    return of.row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,8 +108,8 @@ class Row:
             path, last = self.from_then(part * h), self.from_then((part + 1) * h)
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
-                spring, rates = (self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
-                of = row(two, one, *spring, path, *rates, *self.law, tools, None, None, look and look[i])
+                spring, rates = Springs(self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
+                of = row(two, one, spring, path, *rates, *self.law, tools, None, None, look and look[i])
                 sums[:, i] += of.area, of.moment + part * h * of.area, of.stuck
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
@@ -130,14 +130,14 @@ class Row:
         e, s, end, n = self.e.copy(), self.s.copy(), self.from_then(self.h), self.gap.size
         tools, excess = tools_for(self.law, self.h), np.full((s.shape[0], 1), np.nan)
         seen, rates = Each(*np.empty((3, n))) if each else None, rates or (end.z_1, end.x_1)
-        of = row(s, e, self.gap, self.w, self.path, *rates, *self.law, tools, excess, seen, None)
+        of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, excess, seen, None)
         return e, s, of, excess, seen
 
     def pressed(self):
         """Compressions, sums of area and moment, and for how long each has pressed, without friction."""
         s, each = self.s.copy(), Each(*np.empty((3, self.gap.size)))
         rate, tools = self.from_then(self.h).z_1, tools_for(self.law, self.h)
-        of = press(s, self.gap, self.w, self.path, rate, *self.law, tools, each)
+        of = press(s, Springs(self.gap, self.w), self.path, rate, *self.law, tools, each)
         return s, of.normal_area, of.normal_moment, each.pressed_for
 
     def by_tiny_steps(self, n, limit=1.0, turned=1.0, touch=0.0, dashpot=1.0):

@@ -10,6 +10,7 @@ from rows import MATERIALS, Row, row
 
 from mdr.spring import contact_modes as of
 from mdr.spring import energies
+from mdr.spring.contact import Springs
 from mdr.spring.path import Ends, zero_of_parabola
 from mdr.spring.row import as_they_are
 from mdr.spring.times import tools_for
@@ -158,16 +159,14 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
         tools, end = tools_for(one.law, half), then.from_then(half)
         T, _, arms = one.law
         excess = np.zeros((one.s.shape[0], 1))
-        last = row(
-            first.s.copy(), first.e.copy(), first.gap, first.w, first.path, 0, 0, *one.law, tools, excess, None, None
-        )
+        row_of = Springs(first.gap, first.w)
+        last = row(first.s.copy(), first.e.copy(), row_of, first.path, 0, 0, *one.law, tools, excess, None, None)
         ends = end.z_1, end.x_1
         area, moment, force = as_they_are(then.path, last.sticking, last.back, T, arms, tools, excess, *ends)
         s_end, of_slip, moment_of_slip, _ = then.pressed()
         normal = one.roots @ (s_end @ then.w) + T * end.z_1 * then.w.sum()
-        of_row = row(
-            then.s.copy(), then.e.copy(), then.gap, then.w, then.path, *ends, *one.law, tools, None, None, None
-        )
+        row_of = Springs(then.gap, then.w)
+        of_row = row(then.s.copy(), then.e.copy(), row_of, then.path, *ends, *one.law, tools, None, None, None)
         known = of_row.area, of_row.moment, of_row.end
         assert keeps.any()
         assert_allclose((of_slip + area, moment_of_slip + moment, normal + force), known, atol=1e-12)

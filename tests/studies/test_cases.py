@@ -61,7 +61,7 @@ def test_groups_have_their_value_in_the_end():
         ({"omega_0/omega": 0.0}, "omega_0/omega must be positive"),
         ({"oscillation.u_z0": -1e-6, "k_x/k_xc": 1.0}, "the contact has no stiffness at its mean depth"),
         ({"oscillation.u_z0": -1.0}, "the indenter never touches"),
-        ({"mu_0": -0.1}, "mu_0 must be positive"),
+        ({"mu_0": -0.1}, "mu_0 must not be negative"),
         ({"T": -0.1}, "tau must not be negative"),
     ],
 )

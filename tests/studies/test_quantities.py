@@ -21,7 +21,7 @@ OF_CASE = {
     **{name: attrgetter(name) for name in ("k_zc", "k_xc", "alpha", "T")},
 }
 OF_CURVE = {
-    **{name: attrgetter(name) for name in ("cof", "cof_error", "stick_share", "settled")},
+    **{name: attrgetter(name) for name in ("cof", "share", "cof_error", "stick_share", "settled")},
     "cof_y": lambda curve: np.zeros(3),  # nothing moves across
     "mean_F_x": lambda curve: curve.cof * mean_normal_force(RIGID),
     "mean_F_z": lambda curve: np.full(3, mean_normal_force(RIGID)),

@@ -58,7 +58,8 @@ def test_records_print_as_a_few_lines_and_in_notebooks_alike(kind):
 
 
 def test_a_run_says_how_it_ended():
-    run = replace(MAKE["run"](), cof=0.25, mu_0=0.5, cof_error=2e-5, settled=False, why="F_x still drifts")
+    full = {"mu_0": 0.5, "full_cof": 0.5}
+    run = replace(MAKE["run"](), cof=0.25, **full, cof_error=2e-5, settled=False, why="F_x still drifts")
     text = str(run)
     assert "COF        0.250000 +- 2.0e-05  0.5 of mu_0 = 0.5" in text
     assert "settled    no" in text

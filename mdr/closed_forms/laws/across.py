@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.coulomb import of_coulomb
 from mdr.case.depth_cycle import harmonic_sum
 from mdr.closed_forms.across import across_alone, extent_across, held_across, places, pulled_rigidly, static_across
 from mdr.materials.base import Material
@@ -45,6 +46,7 @@ def rigid_across(r: float) -> float:
     return float(2 / np.pi * share * ellipkm1(max(share * share, 1e-300)))  # a square may underflow
 
 
+@of_coulomb
 def lost_across(case: SlidingContact, v_0: float) -> float:
     """Friction 1 - mu/mu_0 [-] that a shake across takes from a fast slide, at constant depth.
 
@@ -93,6 +95,7 @@ def lost_across(case: SlidingContact, v_0: float) -> float:
     return float(weight @ (s * lost) / (weight @ s))
 
 
+@of_coulomb
 def steered_across(case: SlidingContact, v_0: float) -> float:
     """COF across [-] of a fast slide whose normal force oscillates too: mu_0 mean of F_N y'/(v_0 mean of F_N).
 
@@ -139,6 +142,7 @@ def steered_across(case: SlidingContact, v_0: float) -> float:
     return float(case.mu_0 * (F @ rate) / (v_0 * F.sum()))
 
 
+@of_coulomb
 def excess_across(case: SlidingContact, v_0: float) -> float:
     """What springs are too high by, over mu_0 [-], where a contact is shaken across: beside a half-space uncoupled.
 

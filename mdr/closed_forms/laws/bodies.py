@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, require_case
+from mdr.case.coulomb import of_coulomb
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import normal_force_harmonics
 from mdr.indenters.base import Indenter
@@ -48,6 +49,7 @@ def stiffness_exponent(indenter: Indenter, d: float) -> float:
     return float(np.log(high / low) / np.log((1 + step) / (1 - step)))
 
 
+@of_coulomb
 def first_order(case: SlidingContact, n_t: int = 4096) -> float:
     """First order C [-] of the error of Eq. (15) in the amplitude: v_c/v_c15 - 1 = C alpha s + O(alpha²).
 
@@ -139,6 +141,7 @@ def load_error(eps: float, n: float) -> float:
 # --- what the mean depth does to v_c ---
 
 
+@of_coulomb
 def depth_sensitivity(case: SlidingContact) -> float:
     """Sensitivity S = d ln v_c/d ln k_xc [-] of Eq. (15) to the contact stiffness, at a given amplitude du_z.
 
@@ -187,6 +190,7 @@ class LeastOverDepth(NamedTuple):
     over_eq_1: float  #: v_c over Eq. (1) there [-]
 
 
+@of_coulomb
 def least_over_depth(case: SlidingContact) -> LeastOverDepth:
     """Contact stiffness at which Eq. (15) is least over the depth, at a given du_z, and v_c there.
 
@@ -235,6 +239,7 @@ def _groups(case: SlidingContact) -> tuple[complex, complex]:
 # --- contact lost ---
 
 
+@of_coulomb
 def onset(case: SlidingContact) -> float:
     """Error [-] of Eq. (15) for a flat punch under a body that has just been lost, to leading order.
 
@@ -291,6 +296,7 @@ def onset(case: SlidingContact) -> float:
     return float(faster / (critical_velocity(case) / (1 + eps)))
 
 
+@of_coulomb
 def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     """Critical velocity [m/s] of a slow material, T >> 1, that loses contact under a body.
 
@@ -342,6 +348,7 @@ def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     return float(np.sum(impulse * answer.imag) / (m * lam.imag))
 
 
+@of_coulomb
 def half_a_blow(case: SlidingContact) -> float:
     """Limit [m/s] of `blow` for T to infinity under a light damper: pi mu_0 F_N(u_z0 + du_z)/(m omega).
 
@@ -383,6 +390,7 @@ def half_a_blow(case: SlidingContact) -> float:
 # --- an undamped body on a multiple of the frequency ---
 
 
+@of_coulomb
 def harmonic_share(case: SlidingContact, n: int) -> float:
     """Share ``|F_n|/F_0`` [-] of the n-th harmonic in the normal force: what friction stays short of on a resonance.
 
@@ -417,6 +425,7 @@ def harmonic_share(case: SlidingContact, n: int) -> float:
     return float(abs(F_n[n]) / F_n[0].real)
 
 
+@of_coulomb
 def resonance_residue(case: SlidingContact, n: int) -> float:
     """Limit [m/s] of v_c times the detuning ``|omega_0/omega - n|`` of an undamped body, on its resonance: its pole.
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.coulomb import of_coulomb
 from mdr.case.motion import NormalOscillation
 from mdr.case.spectrum import Spectrum
 from mdr.closed_forms.rigid_pull import average_friction
@@ -129,6 +130,7 @@ def random_end(share: float, T: float = 0.0) -> float:
     return float(brentq(lambda b: np.log(random_loss(b, T) / left), 1e-4, 8.0, xtol=1e-10))
 
 
+@of_coulomb
 def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> float:
     """Friction [-] of a fast pull over a depth that vibrates at random: mu_0 (1 - k_zc D/F_N), D of `random_loss`.
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.coulomb import of_coulomb
 from mdr.closed_forms.across import pulled_rigidly
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.paper import deficit
@@ -70,6 +71,7 @@ def held_under_shake(indenter: Indenter, d: float, reach: float) -> float:
     return float(indenter.force(max(d - reach, 0.0), 1.0)) / float(indenter.force(d, 1.0))
 
 
+@of_coulomb
 def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     """Friction 1 - mu/mu_0 [-] that a small oscillation takes, normal and along the way together, at any phase.
 

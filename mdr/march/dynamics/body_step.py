@@ -12,6 +12,7 @@ import numpy as np
 
 from mdr.march.dynamics.body import RATE, Y
 from mdr.march.dynamics.broyden import correct
+from mdr.spring.face import face_later
 from mdr.spring.motion import glassy
 from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path
 from mdr.spring.row import as_they_are, row
@@ -82,7 +83,8 @@ def copy(x, out):
 def later(path, t):
     """A motion, its time counted from t on."""
     z_0 = path.z_0 + t * (path.z_1 + t * path.z_2)
-    return Path(z_0, path.z_1 + 2.0 * path.z_2 * t, path.z_2, path.x_1 + 2.0 * path.x_2 * t, path.x_2)
+    z_1, x_1 = path.z_1 + 2.0 * path.z_2 * t, path.x_1 + 2.0 * path.x_2 * t
+    return Path(z_0, z_1, path.z_2, x_1, path.x_2, face_later(path.face, t))
 
 
 @_inline
@@ -104,7 +106,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     others as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
     whether this was solved; e, s, of_body are updated.
     """
-    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
+    (T, modes, arms), (e_0, s_0, excess) = law, room
     h, path, found = tools.times.h, here.path, False
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -127,7 +129,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             if not fresh:
                 put(e_0, e)
                 put(s_0, s)
-            of = row(s, e, gap, w, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
+            of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
             fresh, last = False, Last(of.sticking, of.back)
             area, moment, end = of.area, of.moment, of.end
             if side is None or iteration <= PLAIN:
@@ -201,7 +203,7 @@ def moved(path, ahead, aside, side):
     b_1, b_2, rate = ahead.b_1, ahead.b_2, ahead.rate
     if side is not None:
         b_1, b_2, rate = complex(b_1, aside.b_1), complex(b_2, aside.b_2), complex(rate, aside.rate)
-    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + b_1, path.x_2 + b_2), rate
+    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + b_1, path.x_2 + b_2, path.face), rate
 
 
 @_inline
@@ -301,12 +303,12 @@ def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
-    (gap, w), (T, modes, arms), (e_0, s_0, excess) = springs, law, room
+    (T, modes, arms), (e_0, s_0, excess) = law, room
     put(e_0, e)
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
-    of = row(s, e, gap, w, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
+    of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
     left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 

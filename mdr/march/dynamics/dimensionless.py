@@ -20,8 +20,11 @@ from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import Body, body_of
 from mdr.march.dynamics.full_slip import FullSlip
 from mdr.march.dynamics.kernel import Is, Kernel, block_of
+from mdr.march.dynamics.limit import Limit, faces_of, unseen
 from mdr.materials.operator import SLOWEST, Rheology
 from mdr.normal.springs import SpringArray
+from mdr.spring.contact import Springs
+from mdr.spring.face import Faces
 from mdr.spring.law import Law, law_of
 from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
@@ -34,7 +37,7 @@ RINGING_PASSES = 20  #: of the iteration for the oscillation of a body on spring
 class Units:
     """Units of the scaled form, in SI."""
 
-    length_x: float  #: tangential: mu_0 kappa du_z [m]
+    length_x: float  #: tangential: mu_0 kappa du_z, and with a shear strength 2 tau_0 a/G* more [m]
     length_z: float  #: normal: du_z [m]
     stiffness_x: float  #: of all springs, tangential [N/m]
     stiffness_z: float  #: normal [N/m]
@@ -42,7 +45,7 @@ class Units:
 
     @property
     def speed(self) -> float:
-        """Velocity mu_0 kappa omega du_z [m/s], which is Eq. (1)."""
+        """Velocity [m/s] of this length: mu_0 kappa omega du_z of Eq. (1)."""
         return self.length_x * self.omega
 
     @property
@@ -91,12 +94,12 @@ class Drive:
         ways = [self.along] if self.across is None else [self.along, self.across]
         return max(v, *(float(np.abs(way.x_dot).max()) for way in ways))
 
-    def with_pull(self, v: float) -> loop.Motion:
+    def with_pull(self, v: float, faces: Faces | None = None) -> loop.Motion:
         """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
         x, x_dot = self.along.x, self.along.x_dot
         if self.across is not None:
             x, x_dot = x + 1j * self.across.x, x_dot + 1j * self.across.x_dot
-        return loop.Motion(self.z, self.z_dot, v, x, x_dot)
+        return loop.Motion(self.z, self.z_dot, v, x, x_dot, faces)
 
     @classmethod
     def of(cls, case: SlidingContact, length_x: float, steps: int) -> Drive:
@@ -135,7 +138,7 @@ class Slow:
         return self.rho / (1 + self.rho) / SLOWEST
 
     @classmethod
-    def of(cls, rheology: Rheology, row: loop.Springs, drive: Drive) -> Slow:
+    def of(cls, rheology: Rheology, row: Springs, drive: Drive) -> Slow:
         """Of springs in their periodic normal motion."""
         if not rheology.slow:
             return cls(0.0, np.zeros_like(row.gap))
@@ -148,7 +151,8 @@ class ScaledContact:
     """The parts of a contact that the march needs."""
 
     units: Units
-    springs: loop.Springs
+    springs: Springs
+    faces: Faces | None  #: the shear strength of the face; None where it has none
     slow: Slow  #: what slow arms have made of stiffness and gaps
     n_alike: int  #: how many springs that stand alike the only one stands for
     drive: Drive
@@ -171,15 +175,18 @@ class ScaledContact:
     def of(cls, case: SlidingContact, springs: SpringArray, steps: int, lump: bool) -> ScaledContact:
         """Scale a case, its springs and its motion; springs that all stand alike become one if asked."""
         unit, width, rheology = case.cycle.unit, float(springs.width.sum()), case.rheology
-        length_x = case.mu_0 * case.material.mindlin_ratio * unit
-        row, n_alike = loop.Springs(springs.gap / unit, springs.width / width), 1
-        if lump and row.gap.max() == row.gap.min():
-            row, n_alike = loop.Springs(row.gap[:1], np.ones(1)), row.gap.size
+        row, n_alike = Springs(springs.gap / unit, springs.width / width), 1
+        if lump and row.gap.max() == row.gap.min() and not case.tau_0:
+            row, n_alike = Springs(row.gap[:1], np.ones(1)), row.gap.size
+        length_x = case.unit_length
         drive = Drive.of(case, length_x, steps)
         slow = Slow.of(rheology, row, drive)
-        row, rheology, width = loop.Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
+        row, rheology, width = Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
         units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
-        law = law_of(rheology.T, rheology.rho, rheology.theta)
+        law, coulomb = law_of(rheology.T, rheology.rho, rheology.theta), case.mu_0 * case.material.mindlin_ratio * unit
+        radius = length_x * springs.G_star * (1 + slow.rho) / (2 * case.tau_0) if case.tau_0 else np.inf
+        faces = faces_of(case, radius, coulomb / length_x, steps)
+        row = row._replace(x2=(springs.x / radius) ** 2 if faces else None)
         body, across = (
             body_of(M, C, K, law, drive.h, _ringing(M, K, rheology))
             for M, C, K in (
@@ -187,7 +194,7 @@ class ScaledContact:
                 for across, moves in ((False, True), (True, case.moves_across))
             )
         )
-        return cls(units, row, slow, n_alike, drive, rheology, law, body, across)
+        return cls(units, row, faces, slow, n_alike, drive, rheology, law, body, across)
 
     @cached_property
     def normal(self) -> NormalPeriod:
@@ -195,32 +202,43 @@ class ScaledContact:
         return _settled(self.springs, self.drive, self.law)
 
     @cached_property
+    def limit(self) -> Limit:
+        """What friction bears at the most."""
+        return Limit.of(self.normal, self.springs, self.drive.z, self.drive.z_dot, self.law, self.faces)
+
+    def unseen(self, v: float) -> float:
+        """Share of full slip lost at the edge of contact, in steps too long to see it, at a velocity of the pull."""
+        modulus = np.inf if self.law.T else 1.0 + sum(self.rheology.rho)  # a dashpot lets no limit grow like a root
+        rate = 0.0 if self.faces is None else self.faces.coulomb * self.drive.z_dot[:-1]
+        return unseen(self.faces, np.asarray(rate), v, modulus, self.limit)
+
+    @cached_property
     def at_stake(self) -> float:
-        """Friction over mu_0 that the oscillation can take: where there is no shake, what the least F_z lacks."""
-        return 1.0 if self.drive.is_shaken else max(1 - float(self.normal.end.min()) / self.normal.mean, 0.0)
+        """Share of full slip that the oscillation can take: where there is no shake, what the least force lacks."""
+        return 1.0 if self.drive.is_shaken else max(1 - float(self.limit.end.min()) / self.limit.mean, 0.0)
 
     @property
     def full_slip_force(self) -> tuple[loop.FullSlipForce | None, Array | None]:
         """Force of the springs over each step, if all slip forward, and times of flight; None where not needed."""
         if self.body.rigid or self.ways == 2:
             return None, None
-        normal = self.normal
-        return loop.FullSlipForce(normal.area, normal.moment, normal.end), normal.flight if self.body.light else None
+        limit, flight = self.limit, self.normal.flight if self.body.light else None
+        return None if self.faces else loop.FullSlipForce(limit.area, limit.moment, limit.end), flight
 
     @cached_property
     def full_slip(self) -> FullSlip:
         """The body in full slip."""
-        return FullSlip(self.body, self.normal, self.drive.z_dot - self.drive.along.x_dot, self.drive.pace(0.0))
+        return FullSlip(self.body, self.limit, self.drive.z_dot - self.drive.along.x_dot, self.drive.pace(0.0))
 
     @cached_property
     def in_numbers(self) -> tuple[Kernel, Array]:
         """What marches it, and all that this has to know of it but the velocity."""
         bodies = self.body, self.body_across
-        return block_of(self.springs, self.drive.with_pull(0.0), self.law, bodies, *self.full_slip_force)
+        return block_of(self.springs, self.drive.with_pull(0.0, self.faces), self.law, bodies, *self.full_slip_force)
 
 
-def _settled(row: loop.Springs, drive: Drive, law: Law) -> NormalPeriod:
-    found = settled(*row, drive.z, drive.z_dot, law)
+def _settled(row: Springs, drive: Drive, law: Law) -> NormalPeriod:
+    found = settled(row.gap, row.w, drive.z, drive.z_dot, law)
     if found is None:
         raise ValueError(
             f"steps_per_period = {drive.steps} is too coarse for the normal motion of springs with these "

@@ -56,7 +56,7 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
     """
     scaled = stepper.scaled
     unit = scaled.units.energy_x
-    of_friction = 2 * np.pi * unit * stepper.mean_F_z * scaled.drive.pace(stepper.v)
+    of_friction = 2 * np.pi * unit * stepper.mean_limit * scaled.drive.pace(stepper.v)
     fastest = 1.0 if scaled.body.light else max(1.0, scaled.body.ringing)
     of_steps = OF_STEPS * (scaled.drive.h * fastest) ** 2 * (balance.lost + of_friction)
     missing = abs(balance.residual)

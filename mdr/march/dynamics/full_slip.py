@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.dynamics.body import N_BODY, RATE, Body, Y, harmonics_of, light_harmonics_of
-from mdr.spring.settle import NormalPeriod
+from mdr.march.dynamics.limit import Limit
 from mdr.tools.arrays import Array
 
 FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march from full slip begins at most
@@ -19,8 +19,8 @@ FASTEST_START = 100.0  #: velocity of the body, over v_0, with which a march fro
 class FullSlip:
     """The periodic motion of a body under the force of full slip."""
 
-    def __init__(self, body: Body, normal: NormalPeriod, rate: Array, pace: float) -> None:
-        self.body, self.normal, self.steps = body, normal, rate.size - 1
+    def __init__(self, body: Body, limit: Limit, rate: Array, pace: float) -> None:
+        self.body, self.limit, self.steps = body, limit, rate.size - 1
         self.rate = rate  #: (n_steps + 1,) of depth less that of the way of a shake
         self.pace = pace  #: greatest velocity of the shake
 
@@ -49,7 +49,7 @@ class FullSlip:
         n = int(np.flatnonzero(resonant)[0]) if resonant.any() else int(np.argmax(self._velocities))
         F_n = complex(self._force[n])
         far = resonant[n] or self._velocities[n] > FASTEST_START * max(v, self.pace)
-        if n == 0 or abs(F_n) < 1e-10 * abs(self.normal.mean) or not far:
+        if n == 0 or abs(F_n) < 1e-10 * abs(self.limit.mean) or not far:
             return None
         motion = motion.copy()
         motion[:, n] = 0
@@ -70,10 +70,10 @@ class FullSlip:
         if self.body.rigid:
             return 0.0
         motion, resonant = self._motion
-        if (resonant & (np.abs(self._force) > 1e-10 * abs(self.normal.mean)))[1:].any():
+        if (resonant & (np.abs(self._force) > 1e-10 * abs(self.limit.mean)))[1:].any():
             return np.inf
         y_dot = np.fft.irfft(motion[1], self.steps)
-        presses = self.normal.area > 0
+        presses = self.limit.area > 0
         touching = presses & np.roll(presses, 1)  # contact at the node between two steps
         return float((self.rate[:-1] - y_dot)[touching].max(initial=0.0))
 
@@ -84,15 +84,15 @@ class FullSlip:
     @cached_property
     def _force(self) -> NDArray[np.complex128]:
         """Harmonics of the mean force of each step, as of rfft over the number of steps."""
-        return np.asarray(np.fft.rfft(self.normal.area) / (2 * np.pi))
+        return np.asarray(np.fft.rfft(self.limit.area) / (2 * np.pi))
 
     @cached_property
     def _motion(self) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
         """Harmonics (2, N) of y and its rate, as of rfft, and which of them are resonances."""
-        areas = np.fft.rfft(self.normal.area)
+        areas = np.fft.rfft(self.limit.area)
         if self.body.light:
-            return light_harmonics_of(self.body, areas, np.fft.rfft(self.normal.end))
-        return harmonics_of(self.body, areas, np.fft.rfft(self.normal.moment))
+            return light_harmonics_of(self.body, areas, np.fft.rfft(self.limit.end))
+        return harmonics_of(self.body, areas, np.fft.rfft(self.limit.moment))
 
     @cached_property
     def _velocities(self) -> Array:

@@ -19,7 +19,9 @@ from numba.experimental import function_type  # noqa: F401, teaches numba what a
 from numba.extending import overload, register_jitable
 
 from mdr.march.dynamics.body import Body
-from mdr.march.dynamics.loop import FullSlipForce, Motion, Springs, Trace, march
+from mdr.march.dynamics.loop import FullSlipForce, Motion, Trace, march
+from mdr.spring.contact import Springs
+from mdr.spring.face import Faces
 from mdr.spring.law import Arms, Law, Modes
 from mdr.spring.path import FAST
 from mdr.spring.times import new_tools
@@ -30,9 +32,9 @@ _ROW, _ROWS = types.float64[::1], types.float64[:, ::1]
 #: block, velocity of the pull, state and compressions, updated, number of steps, flat trace; whether all was solved
 SIGNATURE = types.boolean(_ROW, types.float64, _ROW, _ROWS, types.int64, _ROW)
 
-#: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of the body
-#: along the pull
-N, N_T, N_ARMS, N_MODES, N_WAYS, OF_T, ALONG = range(7)
+#: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of Coulomb's
+#: share beside a shear strength; of the body along the pull
+N, N_T, N_ARMS, N_MODES, N_WAYS, OF_T, COULOMB, ALONG = range(8)
 OF_BODY = 19  #: numbers of a body
 ACROSS, HEAD = ALONG + OF_BODY, ALONG + 2 * OF_BODY  #: places of the body across, and of the arrays
 OF_STEP = 10  #: numbers that a flat trace has of a step
@@ -46,6 +48,7 @@ class Kind(NamedTuple):
     modes: Is  #: of its material
     arms: Is
     slip: Is  #: a force of full slip, as it has a body on a line
+    face: Is  #: a shear strength of its face
     flight: Is  #: times of flight, as the body is light
     plane: Is  #: vectors for extensions
 
@@ -95,12 +98,16 @@ def block_of(
     of_arms, of_modes = (0 if one is None else one[0].size for one in (arms, modes))
     plane = np.iscomplexobj(motion.x)
     sizes = springs.gap.size, motion.z.size - 1, of_arms, of_modes, 1 + plane
-    arrays = [*springs, motion.z, motion.z_dot, motion.x.real, motion.x_dot.real]
+    arrays = [springs.gap, springs.w, motion.z, motion.z_dot, motion.x.real, motion.x_dot.real]
     arrays += [motion.x.imag, motion.x_dot.imag] if plane else []
     arrays += [one.ravel() for part in (modes, arms, slip) if part is not None for one in part]
     arrays += [] if flight is None else [flight]
-    kind = Kind(*(None if one is None else True for one in (modes, arms, slip, flight, plane or None)))
-    return kernel_of(kind), np.concatenate([sizes, [T], *map(_numbers, bodies), *arrays])
+    faces = motion.faces
+    arrays += [] if faces is None or springs.x2 is None else [springs.x2, faces.a2.ravel()]
+    kind = Kind(*(None if one is None else True for one in (modes, arms, slip, faces, flight, plane or None)))
+    return kernel_of(kind), np.concatenate(
+        [sizes, [T, 1.0 if faces is None else faces.coulomb], *map(_numbers, bodies), *arrays]
+    )
 
 
 def new_trace(block: Array, n_periods: int) -> Array:
@@ -178,7 +185,7 @@ def trace_of(flat, n_steps, plane):
 @lru_cache
 def kernel_of(kind: Kind) -> Kernel:
     """The kernel of a kind."""
-    has_modes, has_arms, has_slip, has_flight, in_plane = kind
+    has_modes, has_arms, has_slip, has_face, has_flight, in_plane = kind
 
     def kernel(block, v, x, s, n_steps, trace):
         n_t, J, K = int(block[N_T]), int(block[N_ARMS]), int(block[N_MODES])
@@ -201,10 +208,20 @@ def kernel_of(kind: Kind) -> Kernel:
         area, at = taken(block, at, n_slip)
         moment, at = taken(block, at, n_slip)
         end, at = taken(block, at, n_slip)
-        flight, at = taken(block, at, n_slip if has_flight is not None else 0)
+        flight, at = taken(block, at, n_t if has_flight is not None else 0)
+        x2, at = taken(block, at, gap.size if has_face is not None else 0)
+        a2, at = taken(block, at, 3 * n_t if has_face is not None else 0)
+        faces = Faces(block[COULOMB], a2.reshape((a2.size // 3, 3)))
         modes = if_there(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
         law = Law(block[OF_T], modes, if_there(Arms(rho, rate), has_arms))
-        motion = Motion(z, z_dot, v, vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane))
+        motion = Motion(
+            z,
+            z_dot,
+            v,
+            vectors(along, across, in_plane),
+            vectors(along_dot, across_dot, in_plane),
+            if_there(faces, has_face),
+        )
         state = as_numbers(x, in_plane)
         e = state[: s.size].reshape(s.shape)
         body = body_at(block, ALONG)
@@ -215,7 +232,7 @@ def kernel_of(kind: Kind) -> Kernel:
             state[s.size :],
             body,
             if_there(body_at(block, ACROSS), in_plane),
-            Springs(gap, w),
+            Springs(gap, w, if_there(x2, has_face)),
             if_there(FullSlipForce(area, moment, end), has_slip),
             if_there(flight, has_flight),
             motion,

@@ -18,6 +18,7 @@ from mdr.march.dynamics.body_step import Here, Last, copy, follow, later, note, 
 from mdr.march.dynamics.broyden import ROOM
 from mdr.spring.contact import Look
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
+from mdr.spring.face import Faces, face_in
 from mdr.spring.path import FAST, LENT, OWN, Path, along
 from mdr.spring.row import row
 from mdr.spring.times import tools_of
@@ -26,6 +27,8 @@ from mdr.tools.jit import compiled, inner
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath=FAST)
 _inner = inner(error_model="numpy", fastmath=FAST, **OWN)
+FASTER = 1e9  #: velocity of a pull that no spring outruns
+
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 
@@ -37,6 +40,7 @@ class Motion(NamedTuple):
     v: float  #: steady velocity of the pull
     x: Array  #: (n_t + 1,) way of a shake in the plane
     x_dot: Array  #: (n_t + 1,) its rate
+    faces: Faces | None = None  #: what the edge of contact does; None where friction is Coulomb's alone
 
 
 class FullSlipForce(NamedTuple):
@@ -47,13 +51,6 @@ class FullSlipForce(NamedTuple):
     area: Array  #: (n_t,)
     moment: Array  #: (n_t,) about the start of the step
     end: Array  #: (n_t,) force at its end
-
-
-class Springs(NamedTuple):
-    """The row of springs."""
-
-    gap: Array  #: (n,) depth of each foot below the mean surface position
-    w: Array  #: (n,) share of each spring in the stiffness
 
 
 class Trace(NamedTuple):
@@ -86,7 +83,8 @@ def path_of(motion, k, h):
     """The parabolas of step k, without the body."""
     z, zd, x, xd = motion.z, motion.z_dot, motion.x, motion.x_dot
     z_2, x_2 = (zd[k + 1] - zd[k]) / (2.0 * h), (xd[k + 1] - xd[k]) / (2.0 * h)
-    return Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, motion.v + (x[k + 1] - x[k]) / h - x_2 * h, x_2)
+    z_1, x_1 = (z[k + 1] - z[k]) / h - z_2 * h, motion.v + (x[k + 1] - x[k]) / h - x_2 * h
+    return Path(z[k], z_1, z_2, x_1, x_2, face_in(motion.faces, k))
 
 
 @_inner
@@ -126,10 +124,23 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
 
 
 @_jit
+def full_slip(e, s, springs, z, z_dot, T, modes, arms, tools, faces, sums):
+    """A period of springs that a pull drags which is faster than any of them: e, s (1 + J, n) are updated, sums
+    (3, n_t) filled with area, moment and end of the force of each step.
+    """
+    h = tools.times.h
+    for k in range(z.size - 1):
+        z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
+        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, FASTER, 0.0, face_in(faces, k))
+        of = row(s, e, springs, path, z_dot[k + 1], FASTER, T, modes, arms, tools, None, None, None)
+        sums[0, k], sums[1, k], sums[2, k] = of.area, of.moment, of.end
+
+
+@_jit
 def look(e, s, springs, motion, law, tools, trace, seen):
     """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
-    (gap, w), (T, modes, arms) = springs, law
-    h, n, kept = tools.times.h, gap.size, seen.mode.shape[0]
+    T, modes, arms = law
+    h, n, kept = tools.times.h, springs.gap.size, seen.mode.shape[0]
     mode, f_z, f, F = np.empty(n), np.empty(n), np.empty_like(e[0]), np.empty(4)
     for k in range(motion.z.size - 1):
         path = path_of(motion, k, h)
@@ -137,7 +148,7 @@ def look(e, s, springs, motion, law, tools, trace, seen):
             t, x_1, x_2 = trace.parts[k, part, 0].real, trace.parts[k, part, 1], trace.parts[k, part, 2]
             if t == 0.0:
                 continue
-            now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2)
+            now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2, path.face)
             if t < h:
                 now, nodes = tools_of(t, law.modes, law.arms, tools), nodes_of(t, law.modes, law.arms)
             path = later(here, t)
@@ -145,7 +156,7 @@ def look(e, s, springs, motion, law, tools, trace, seen):
             if part == 1:
                 zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1] + trace.rate[k]
             into = Look(nodes, seen.sums, F, mode, f, f_z)
-            of = row(s, e, gap, w, here, zd, xd, T, modes, arms, now, None, None, into)
+            of = row(s, e, springs, here, zd, xd, T, modes, arms, now, None, None, into)
             seen.sums[SHEAR_WORK] += along(x_1, of.area) + 2.0 * along(x_2, of.moment)
         copy(F, seen.F[k])
         if kept > 0:

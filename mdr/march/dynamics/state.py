@@ -43,13 +43,13 @@ class MarchState:
 
 
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)
-def within_friction(x, s):
-    """Bring the extensions of a state vector into the cone of friction: combinations of states may leave it."""
+def within_friction(x, s, most):
+    """Bring the extensions of a state vector into the cone of friction, most (n,), which combinations may leave."""
     ways = x.size // (s.size + N_BODY)
     for i in range(s.shape[1]):
-        square, most = 0.0, s[0, i]
+        square = 0.0
         for way in range(ways):
             square += x[ways * i + way] ** 2
-        if square > most * most:
+        if square > most[i] * most[i]:
             for way in range(ways):
-                x[ways * i + way] *= most / np.sqrt(square)
+                x[ways * i + way] *= most[i] / np.sqrt(square)

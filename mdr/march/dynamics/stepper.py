@@ -16,6 +16,7 @@ from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
 from mdr.march.dynamics.dimensionless import ScaledContact, Way
 from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
+from mdr.spring.contact import Springs
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
@@ -58,9 +59,9 @@ class Stepper:
 
     def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
-        self.motion = scaled.drive.with_pull(v)
+        self.motion = scaled.drive.with_pull(v, scaled.faces)
         self.kernel, self.block = scaled.in_numbers
-        self.mean_F_z = scaled.normal.mean
+        self.mean_limit = scaled.limit.mean
         self.n_periods = 0  # marched so far
         self.solved = True  # whether every step of the last march was solved for
         self.room = self.new_room(1)
@@ -78,8 +79,8 @@ class Stepper:
 
     def _ahead(self, body: Array) -> MarchState:
         """All springs at their limit along the pull, and the body so."""
-        s, one = self.scaled.normal.s, 1.0 if self.scaled.ways == 1 else 1 + 0j
-        return MarchState.of(one * s, s, one * body)
+        scaled, one = self.scaled, 1.0 if self.scaled.ways == 1 else 1 + 0j
+        return MarchState.of(one * scaled.limit.s, scaled.normal.s, one * body)
 
     def rest(self) -> MarchState:
         """The state in which nothing is stretched and the body at rest, from which the pull sets off."""
@@ -108,12 +109,12 @@ class Stepper:
         periods: in a periodic motion each does, however slow the pull, and however little a state changes that has
         hardly moved.
         """
-        (gap, w), drive, pull = self.scaled.springs, self.scaled.drive, 2 * np.pi * self.v
+        gap, w, drive, pull = *self.scaled.springs[:2], self.scaled.drive, 2 * np.pi * self.v
         if pull <= drive.steps * LOST * (1 + np.abs(gap).max()):
             return UNKNOWN if pull else 0.0
         went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
         late = np.abs(went) > WITH_IT * n_periods * pull
-        return 2 * float(w[late] @ np.maximum(drive.z.max() - gap[late], 0.0)) / self.mean_F_z
+        return 2 * float(w[late] @ self.scaled.limit.greatest[late]) / self.mean_limit
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
@@ -139,14 +140,14 @@ class Stepper:
     def periods_of(self, trace: loop.Trace) -> Periods:
         """COFs and swing of each whole period."""
         area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
-        cof = area.sum(axis=1) / (2 * np.pi * self.mean_F_z)
+        cof = area.sum(axis=1) / (2 * np.pi * self.mean_limit)
         return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
 
     def least_slip(self, trace: loop.Trace) -> float:
         """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not. A
         step in which contact begins counts as a whole, if it is not cut there.
         """
-        if not abs(1 - trace.area.real.sum() / (2 * np.pi * self.mean_F_z)) <= EXACT:
+        if self.scaled.faces or not abs(1 - trace.area.real.sum() / (2 * np.pi * self.mean_limit)) <= EXACT:
             return 0.0
         (z, z_dot, *_), h = self.motion, self.scaled.drive.h
         z_2 = np.diff(z_dot) / (2 * h)
@@ -185,7 +186,7 @@ class Stepper:
         one, trace = slice(i, i + 1), self._marched(state.copy(), 1)
         nodes, rows = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms), np.zeros((5, n_t, 1))
         seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_t, 4)), *rows)
-        springs = loop.Springs(*(of[one] for of in scaled.springs))
+        springs = Springs(scaled.springs.gap[one], scaled.springs.w[one])  # of Coulomb's friction
         e, s = (np.ascontiguousarray(of[:, one]) for of in (state.e, state.s))
         loop.look(e, s, springs, self.motion, scaled.law, tools_for(scaled.law, scaled.drive.h), trace, seen)
         return seen.f[:, 0], seen.f_z[:, 0]
@@ -198,7 +199,7 @@ class Stepper:
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""
-        within_friction(state.x, state.s)
+        within_friction(state.x, state.s, self.scaled.limit.most)
         return state
 
     def stored_energy(self, state: MarchState) -> float:

@@ -60,18 +60,19 @@ class Search(NamedTuple):
 
 
 @compiled(nogil=True, error_model="numpy", fastmath=_FAST)
-def seek(kernel, block, v, s, roots, n_periods, trace, states, past, counts, changes):
+def seek(kernel, block, v, s, most, roots, n_periods, trace, states, past, counts, changes):
     """Go on with a search for so many periods at most, each begun within the cone of friction.
 
-    kernel, block, v: what is marched (kernel.py); s (1 + J, n): compressions at phase 0; roots (n_x,): of stiffness and
-    mass, a state times them is as long as the root of its energy. trace: flat, of the last period.
+    kernel, block, v: what is marched (kernel.py); s (1 + J, n): compressions at phase 0, most (n,): the longest that
+    extensions can be there; roots (n_x,): of stiffness and mass, a state times them is as long as the root of its
+    energy. trace: flat, of the last period.
     """
     n_t, room = int(block[N_T]), np.empty_like(s)
     for _ in range(n_periods):
         if counts[ENDED]:
             break
         put(s, room)
-        within_friction(states[X], room)
+        within_friction(states[X], room, most)
         copy(states[X], states[START])
         copy(states[X], states[IMAGE])
         solved = kernel(block, v, states[IMAGE], room, n_t, trace)

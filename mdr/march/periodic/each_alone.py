@@ -60,10 +60,10 @@ class _Springs:
         ways, rheology, modes = self.scaled.ways, self.scaled.rheology, self.scaled.law.modes
         self.roots = np.sqrt(np.tile(np.r_[1.0, rheology.rho], ways))[:, None]
         self.lasting = np.flatnonzero(np.tile(np.r_[True, np.array(rheology.theta) > FORGOTTEN], ways))
-        deepest = float(self.scaled.drive.z.max() - self.scaled.springs.gap.min())
-        self.farthest = float(like.s[0].max()) or deepest  # at phase 0 all may be in flight
-        self.most = like.s[0] + WIDER * self.farthest  # how far the vector of each spring may reach
-        self.enough = BEFORE * stepper.tolerance * stepper.mean_F_z
+        limit = self.scaled.limit
+        self.farthest = float(limit.most.max()) or float(limit.greatest.max())  # at phase 0 all may be in flight
+        self.most = limit.most + WIDER * self.farthest  # how far the vector of each spring may reach
+        self.enough = BEFORE * stepper.tolerance * stepper.mean_limit
         self.creep: Array = np.eye(
             len(self.roots)
         )  # what becomes of the changes of a period if the force goes on as it was
@@ -99,7 +99,7 @@ class _Springs:
         if stepper.late(state, end, 1) > stepper.tolerance:
             return None
         cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
-        spread = 2 * off / stepper.mean_F_z
+        spread = 2 * off / stepper.mean_limit
         settling = Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y)
         return Orbit(end, periods, settling, stepper.least_slip(stepper.last))
 

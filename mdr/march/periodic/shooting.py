@@ -165,7 +165,8 @@ class Shooting:
     def _sought(self) -> bool:
         """Whether Anderson's method has come to its end in time, with a state."""
         stepper, search = self.stepper, self.search
-        marched = stepper.kernel, stepper.block, stepper.v, self.s, self.how.roots, self.how.at_once, self.flat
+        most, how = stepper.scaled.limit.most, self.how
+        marched = stepper.kernel, stepper.block, stepper.v, self.s, most, how.roots, how.at_once, self.flat
         while not search.counts[ENDED]:
             if time_is_over():
                 return False
@@ -210,7 +211,7 @@ class Shooting:
         period = stepper.periods_of(trace)
         # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
         distance = (float(search.changes[LEAST]) + 1e-15) * gain  # 1e-15: rounding
-        spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_F_z
+        spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_limit
         ends = MarchState(begin, self.s), MarchState(state, self.s)
         late = stepper.v > 0 and stepper.late(*ends, 1) > stepper.tolerance
         settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late

@@ -30,6 +30,7 @@ from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.solver import OutOfTime
 from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
+from mdr.normal.normal_force import mean_area
 from mdr.normal.springs import SpringArray, springs_of
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import finite
@@ -104,13 +105,28 @@ class Converged:
 
     @property
     def cof(self) -> float:
-        """COF over mu_0."""
+        """Mean friction over that of full slip: COF over mu_0."""
         return self.settling.mean
 
     @property
     def mean_F_z(self) -> float:
         """Mean of F_z in scaled form."""
-        return self.stepper.mean_F_z
+        return self.scaled.normal.mean
+
+    @property
+    def full_cof(self) -> float:
+        """Mean friction of full slip over the mean normal force [-]: mu_0, and what the shear strength adds."""
+        units, case = self.scaled.units, self.case
+        more = case.tau_0 * mean_area(case) if case.tau_0 else 0.0
+        return case.mu_0 + more / (self.mean_F_z * units.stiffness_z * units.length_z)
+
+    def friction(self, share: float) -> float:
+        """COF [-] of a share of full slip: the springs tell what is lost, and the area of contact all that there is."""
+        units, case = self.scaled.units, self.case
+        if not case.tau_0:
+            return case.mu_0 * share
+        unit = units.stiffness_x * units.length_x / (units.stiffness_z * units.length_z)
+        return self.full_cof - self.scaled.limit.mean / self.mean_F_z * unit * (1 - share)
 
     @property
     def load_error(self) -> float:
@@ -125,8 +141,11 @@ class Converged:
 
     @property
     def hidden_error(self) -> float:
-        """Error over mu_0 that no finer run shows: of the load, and of slow arms that are taken for springs."""
-        return self.depth_error + (0.0 if self.slips_fully else self.scaled.slow.error)
+        """Error over mu_0 that no companion shows: of the load, of slow arms that are taken for springs, and of stick
+        at the edge of contact that neither sees.
+        """
+        unseen = self.scaled.unseen(self.scaled.drive.pace(self.stepper.v)) if self.scaled.faces else 0.0
+        return self.depth_error + unseen + (0.0 if self.slips_fully else self.scaled.slow.error)
 
     @property
     def to_begin_from(self) -> Converged | None:
@@ -189,11 +208,14 @@ class Observed:
         way, z = self.account.y[1:] + self.end.stepper.motion.x[1:], scaled.drive.z[1:]
         bear = np.fft.rfft([z, way.real, way.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
         press, along, across = np.fft.irfft(bear, scaled.drive.steps)
+        gap = float(scaled.springs.gap.min())
+        if scaled.faces:  # of the spring in the middle
+            share, strength = scaled.faces.coulomb, np.sqrt(np.roll(scaled.faces.a2[:, 0], -1))
+            gap, press = share * gap, share * press + strength
         if scaled.ways == 2:  # a foot so at rest that the force goes about zero
             away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
-            return float((press - away).min()) > float(scaled.springs.gap.min())
-        least = (press - along).min() + (press + along).min()
-        return float(least) > 2 * float(scaled.springs.gap.min())
+            return float((press - away).min()) > gap
+        return float((press - along).min() + (press + along).min()) > 2 * gap
 
     @property
     def sees_contact(self) -> bool:
@@ -273,7 +295,7 @@ def alike_to(end: Converged) -> float:
     constant in L[s]. So one that is pressed less by the least of (f + L[s])/2 in a period just does not slip back.
     """
     scaled, stepper = end.scaled, end.stepper
-    if scaled.body.rigid or scaled.ways == 2 or scaled.drive.is_shaken or scaled.slow.rho:
+    if scaled.body.rigid or scaled.ways == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
         return np.inf
     deepest = int(np.argmin(scaled.springs.gap))
     gap = float(scaled.springs.gap[deepest])
@@ -293,7 +315,7 @@ def check(case: SlidingContact, v_0: float) -> None:
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
     farthest = max(float(np.abs(way).max(initial=0.0)) for way in (case.way, case.way_across))
-    if np.inf > farthest > DEEPEST * case.mu_0 * case.material.mindlin_ratio * cycle.unit:
+    if np.inf > farthest > DEEPEST * case.unit_length:
         raise ValueError(
             f"the shake is more than {DEEPEST:g} times mu_0 kappa u_z0 (or du_z), so that the deflection of springs is "
             "lost in its rounding; lower it: beyond, a contact is rigid"
@@ -350,8 +372,8 @@ def _contradiction(march: Observed) -> str:
     stepper, seen, settling, error = march.end.stepper, march.account, march.settling, march.end.error
     if not seen.solved:
         return NO_STEP
-    least = -1.0 if stepper.scaled.drive.is_shaken else float(seen.seen.F[:, 1].min()) / stepper.mean_F_z
-    # between two nodes F_z may be lower by h² F_z''/8, and means over nodes miss as much
+    least = -1.0 if stepper.scaled.drive.is_shaken else float(stepper.scaled.limit.end.min()) / stepper.mean_limit
+    # between two nodes it may be lower by h²/8 times its bend, and means over nodes miss as much
     why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)
     return why or ("" if error is None else outside(settling.mean, -1.0, error + settling.spread + TOLERANCE))
 

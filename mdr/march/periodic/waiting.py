@@ -197,6 +197,6 @@ class Waiting:
 
 def way_from_rest(scaled: ScaledContact, v: float) -> float:
     """Periods until a run from rest can have stretched springs and system."""
-    load = float(scaled.springs.w @ np.maximum(scaled.drive.z.max() - scaled.springs.gap, 0))
-    distance = float(scaled.drive.z.max()) - float(scaled.springs.gap.min()) + load / scaled.body.K
+    greatest = scaled.limit.greatest
+    distance = float(greatest.max()) + float(scaled.springs.w @ greatest) / scaled.body.K
     return distance / (2 * np.pi * v) if v else 0.0  # at rest the start tells where it ends

@@ -276,7 +276,9 @@ def _missed_by(runs: _Runs, main: Converged) -> Missed:
         by_chance += [Companion(_apart(half, runs.beside(half, beside.less)), BY_CHANCE / MOST_GAINED)]
     if runs.case.moves_across:
         by_chance += [Companion(0.0, least=AGREED * main.resolution.accuracy)]
-    return Missed(Companion(_apart(main, steps)), Companion(_apart(steps, half), UNEVENLY), tuple(by_chance))
+    of_steps = UNEVENLY if main.scaled.faces else 1.0  # a limit that bends like a root is met with the order 3/2
+    by_steps, by_springs = Companion(_apart(main, steps), of_steps), Companion(_apart(steps, half), of_steps * UNEVENLY)
+    return Missed(by_steps, by_springs, tuple(by_chance))
 
 
 def _of_unresolved(runs: _Runs, main: Converged) -> float:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.case.coulomb import greatest
 from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.dynamics.state import UNKNOWN
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
@@ -57,6 +58,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     energy_balance: EnergyBalance  #: of one of the last periods
     v_0: float  #: pulling velocity [m/s]
     mu_0: float  #: local coefficient of friction [-]
+    full_cof: float  #: COF of full slip, with nothing lost [-]: mu_0, or what a shear strength makes of it
     omega: float  #: of the oscillation [rad/s]
     n_springs: int  #: springs at x >= 0, each for the pair +x, -x
     steps_per_period: int  #: time steps of one period
@@ -76,7 +78,13 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     u_y: Array | None = None  #: (n_t,) position of the indenter across the pull [m]; None where nothing moves there
     F_y: Array | None = None  #: (n_t,) force across at the end of a step [N]
     e_y: Array | None = None  #: (n_t, n_springs) extensions across [m]
+    strength: Array | None = None  #: (n_t, n_springs) limit of friction besides mu_0 f_z [N]; None without tau_0
     f_y: Array | None = None  #: (n_t, n_springs) forces across [N], which have the direction of slip where it slips
+
+    @property
+    def share(self) -> float:
+        """`cof` over that of full slip [-]: what is left of friction; cof/mu_0 where the face has no shear strength."""
+        return self.cof / self.full_cof
 
     @property
     def mirrored(self) -> SlidingRun:
@@ -94,7 +102,11 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
         return Summary(
             f"SlidingRun at v_0 = {number(self.v_0, 'm/s')}",
             [
-                ("COF", with_error(self.cof, self.cof_error), f"{self.cof / self.mu_0:.6g} of mu_0 = {self.mu_0:.6g}"),
+                (
+                    "COF",
+                    with_error(self.cof, self.cof_error),
+                    f"{self.share:.6g} of {greatest(self.full_cof, self.mu_0)}",
+                ),
                 ("settled", "yes" if self.settled else "no", self.kind),
                 *([("why", self.why, "")] if self.why else []),
                 ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),
@@ -190,7 +202,7 @@ def finish(end: Converged) -> SlidingRun:
     if march.settling.settled and open_account:
         march = march.contradicted(open_account)
     case, scaled, sums, settling = end.case, end.scaled, march.account.seen.sums, march.settling
-    mu_0 = case.mu_0
+    full = end.full_cof
     force_z = scaled.units.stiffness_z * scaled.units.length_z
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
@@ -203,20 +215,21 @@ def finish(end: Converged) -> SlidingRun:
     if settling.settled and march.may_rest_elsewhere:
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
     return SlidingRun(
-        cof=mu_0 * cof,
-        cof_y=mu_0 * across,
-        cof_error=mu_0 * (min(error + own, UNKNOWN) if settling.settled else UNKNOWN),
+        cof=end.friction(cof),
+        cof_y=full * across,
+        cof_error=full * (min(error + own, UNKNOWN) if settling.settled else UNKNOWN),
         settled=settling.settled,
         kind=kind,
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
         least_slip=float(sums[LEAST_SLIP]) * scaled.units.speed,
-        mean_F_x=mu_0 * cof * mean_F_z,
-        mean_F_y=mu_0 * across * mean_F_z,
+        mean_F_x=end.friction(cof) * mean_F_z,
+        mean_F_y=full * across * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
         v_0=end.v_0,
-        mu_0=mu_0,
+        mu_0=case.mu_0,
+        full_cof=full,
         omega=scaled.units.omega,
         n_springs=end.resolution.n_springs,
         steps_per_period=scaled.drive.steps,
@@ -266,7 +279,7 @@ def _recorded(march: Observed) -> dict[str, Any]:
         e, s, f, f_z, mode = (np.repeat(one, n, axis=1) for one in (e, s, f, f_z, mode))
     phase = np.arange(1, n_steps + 1) % scaled.drive.steps
     share, side = springs.width / springs.width.sum(), scaled.drive.across
-    across = {}
+    across: dict[str, Any] = {}
     if side is not None:
         across = {
             "u_y": (y.imag + side.x[phase]) * scaled.units.length_x,
@@ -274,6 +287,10 @@ def _recorded(march: Observed) -> dict[str, Any]:
             "e_y": e.imag * scaled.units.length_x,
             "f_y": f.imag * share * scaled.units.stiffness_x * scaled.units.length_x,
         }
+    if scaled.faces is not None and scaled.springs.x2 is not None:
+        a2 = np.roll(scaled.faces.a2[:, 0], -1)[(phase - 1) % scaled.drive.steps]
+        strength = np.sqrt(np.maximum(a2[:, None] - scaled.springs.x2, 0.0)) * (mode != State.FREE)
+        across["strength"] = strength * share * scaled.units.stiffness_x * scaled.units.length_x
     return across | {
         "t": t,
         "u_x": march.end.v_0 * t + (y.real + scaled.drive.along.x[phase]) * scaled.units.length_x,

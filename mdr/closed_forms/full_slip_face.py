@@ -1,0 +1,87 @@
+"""Full slip of a face with a shear strength: what the strength adds to the rate at which springs are stretched.
+
+In full slip L[e] is the limit of friction, and L is linear: e = mu_0 kappa s + r with L[r] = (2 tau_0/G*) sqrt(a² - x²)
+in contact and nothing else. So a spring slips for good where v_0 is above the greatest mu_0 kappa u_z' + r' - y'.
+A flat face that keeps contact has a constant r, and nothing is added. On a curved elastic face a spring that the edge
+of contact has just reached may bear a force that grows like the root of time, faster than any pull: it always sticks.
+On a dashpot, r + tau r' = (2 tau_0/G*) sqrt(a² - x²), r' has a bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact
+from mdr.indenters.mapping.quadrature import double_exponential
+from mdr.normal.normal_force import contact_radius, corners, edge_of
+from mdr.tools.arrays import Array
+
+PHASES, PLACES = 1024, 96  #: at which rates are looked at; from the best of these on the greatest is sought
+
+
+def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
+    """Greatest rest(phase) + r' [m/s] of any spring in contact, on an elastic or Kelvin material. rest: the rates that
+    all springs have.
+    """
+    from scipy.optimize import minimize
+
+    phase = 2 * np.pi / PHASES * np.arange(float(PHASES))
+    if not case.edge_moves:
+        return float(rest(phase).max())
+    a = contact_radius(case, phase)
+    share = np.sin(np.linspace(0, np.pi / 2, PLACES, endpoint=False))
+    x = np.unique(np.concatenate([a.max() * share, a.min() + (a.max() - a.min()) * share**2]))
+    c, decay = np.sqrt(np.maximum(a[:, None] ** 2 - x**2, 0.0)), np.exp(-phase[1] / case.T)
+    mean = -np.expm1(-phase[1] / case.T) * case.T / phase[1]  # c goes on a line in a step
+    into = c * (mean - decay) + np.roll(c, -1, axis=0) * (1 - mean)
+    r = np.zeros_like(c)
+    for k in (*range(PHASES), *range(PHASES)):  # the second period begins where the first ends, and repeats
+        r[(k + 1) % PHASES] = decay * r[k] + into[k]
+        if k == PHASES - 1:
+            r[0] /= 1 - decay**PHASES
+    total = np.where(c > 0, rest(phase)[:, None] + _unit(case) * (c - r) / case.T, -np.inf)
+    k, i = np.unravel_index(int(np.argmax(total)), total.shape)
+
+    def less(at: Array) -> float:
+        return -float(rest(at[1:])[0]) - _rate(case, float(at[0]) * a.max(), float(at[1]))
+
+    start, size = np.array([x[i] / a.max(), phase[k]]), np.array([0.01, 2 * phase[1]])
+    corners_of = start + np.array([[0.0, 0.0], [-size[0], 0.0], [0.0, size[1]]])
+    options = {"initial_simplex": np.abs(corners_of), "xatol": 1e-9, "fatol": 1e-10 * abs(total[k, i])}
+    return -float(minimize(less, start, method="Nelder-Mead", options=options).fun)
+
+
+def _unit(case: SlidingContact) -> float:
+    return 2 * case.tau_0 / case.material.G_star * case.omega
+
+
+def _rate(case: SlidingContact, x: float, phase: float) -> float:
+    """r' [m/s] of the spring at x on a dashpot; -inf where it is not in contact."""
+    T, rule, cycle = case.T, double_exponential(), case.cycle
+    now = float(contact_radius(case, np.array(phase)))
+    if not abs(x) < now:
+        return -np.inf
+    gap = (float(case.indenter.profile_1d(abs(x))) - cycle.u_z0) / cycle.unit
+    touches, leaves = edge_of(case).crossings(gap)
+    begin = phase - min([(phase - one) % (2 * np.pi) for one in touches], default=2 * np.pi)
+
+    def of_stretch(low: float, high: float) -> float:
+        """Part of r at `high` that a stretch of contact from `low` on has left."""
+        cuts = low + np.mod(corners(case) - low, 2 * np.pi)
+        cuts = np.concatenate([[low], cuts[(cuts > low) & (cuts < high)], [high]])
+
+        def left(at: Array) -> Array:
+            c = np.sqrt(np.maximum(contact_radius(case, at) ** 2 - x * x, 0.0))
+            return np.asarray(c * np.exp((at - high) / T) / T)
+
+        return float(rule.integral(left, cuts))
+
+    r, forgotten = of_stretch(begin, phase), -np.expm1(-2 * np.pi / T)
+    if not touches:
+        r /= forgotten
+    for touch in touches:  # what is left of the contacts before
+        leave = touch + min((one - touch) % (2 * np.pi) for one in leaves)
+        r += of_stretch(touch, leave) * np.exp(-((phase - leave) % (2 * np.pi)) / T) / forgotten
+    return float(_unit(case) * (np.sqrt(now * now - x * x) - r) / T)

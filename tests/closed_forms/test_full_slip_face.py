@@ -1,0 +1,106 @@
+"""Full slip, static limit and the tail of a face with a shear strength; beside runs they are tested by the claim."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import mdr
+from mdr.closed_forms.full_slip_face import greatest_rate
+from mdr.normal.normal_force import contact_radius, full_cof
+
+OMEGA, DEPTH, TAU = 300.0, 20e-6, 0.5 / 300
+MOTION = mdr.NormalOscillation(DEPTH, 0.3 * DEPTH, OMEGA)
+RUBBER, ELASTIC = mdr.KelvinVoigt(3e6, 0.4, TAU), mdr.Elastic(3e6, 0.4)
+BALL = mdr.SlidingContact(mdr.Paraboloid(5e-3), RUBBER, 0.0, MOTION, tau_0=1e4)
+UNIT = 2 * BALL.tau_0 / RUBBER.G_star * OMEGA
+BODY = mdr.SpringPull(k_x=2e3, m=0.01, c_x=2.0)
+
+
+def own_rate(case):
+    """The greatest r' of r + tau r' = (2 tau_0/G*) sqrt(a² - x²) [m/s], in steps that are exact for straight limits."""
+    n, periods = 16384, 4
+    a = contact_radius(case, 2 * np.pi * np.arange(n) / n)
+    x, most = np.linspace(0.3, 0.9999, 400) * a.max(), -np.inf
+    h = case.period / n
+    decay, (r, c) = np.exp(-h / TAU), np.zeros((2, x.size))
+    for k in range(periods * n):
+        after = np.sqrt(np.maximum(a[k % n] ** 2 - x**2, 0.0))
+        mean = -np.expm1(-h / TAU) * TAU / h
+        r = decay * r + c * (mean - decay) + after * (1 - mean)
+        c = after
+        if k >= (periods - 1) * n:
+            most = max(most, np.where(c > 0, (c - r) / TAU, -np.inf).max())
+    return 2 * case.tau_0 / case.material.G_star * most
+
+
+@pytest.mark.parametrize("amplitude", [0.3, 1.5])
+def test_full_slip_is_an_own_sum(amplitude):
+    case = replace(BALL, oscillation=replace(MOTION, du_z=amplitude * DEPTH))
+    assert_allclose(mdr.full_slip_critical_velocity(case), own_rate(case), rtol=1e-4)  # of the grid of x
+
+
+@pytest.mark.parametrize("pull", [mdr.RigidPull(), BODY], ids=["rigid", "body"])
+@pytest.mark.parametrize("mu_0", [0.0, 0.3])
+def test_runs_slip_above_it_by_what_they_are_faster(pull, mu_0):
+    case = replace(BALL, mu_0=mu_0, pull=pull)
+    v_c = mdr.full_slip_critical_velocity(case)
+    run = mdr.slide(case, 2 * v_c, n_springs=128, steps_per_period=512, n_periods=60)
+    assert_allclose(run.v_0 - run.least_slip, v_c, rtol=1e-4)
+
+
+def test_what_it_knows():
+    """Under a paraboloid the amplitude and the relaxation time, and not the depth."""
+    deeper = replace(BALL, oscillation=replace(MOTION, u_z0=3 * DEPTH))
+    wider = replace(BALL, oscillation=replace(MOTION, du_z=0.9 * DEPTH))
+    v_c = mdr.full_slip_critical_velocity(BALL)
+    assert_allclose(mdr.full_slip_critical_velocity(deeper), v_c, rtol=1e-9)
+    assert_allclose(mdr.full_slip_critical_velocity(wider), np.sqrt(3) * v_c, rtol=1e-9)
+    assert mdr.critical_velocity(BALL) == v_c
+
+
+def test_springs_at_a_moving_edge_stick_at_any_velocity_without_a_dashpot():
+    arms = mdr.Prony(3e6, ((2e6, 1e-3),), 0.4)
+    for material in (ELASTIC, arms):
+        case = replace(BALL, material=material)
+        assert mdr.critical_velocity(case) == mdr.full_slip_critical_velocity(case) == np.inf
+        assert mdr.measure_critical_velocity(case).kind == "none"
+    with pytest.raises(ValueError, match="known on elastic and Kelvin materials, got Prony"):
+        mdr.full_slip_critical_velocity(replace(BALL, material=mdr.Prony(3e6, ((2e6, 1e-3),), 0.4, tau=1e-3)))
+    assert "falls like v_0^-3" in str(mdr.verdict(replace(BALL, material=ELASTIC)))
+
+
+def test_a_flat_face_keeps_eqs_1_and_15():
+    for pull in (mdr.RigidPull(), BODY):
+        flat = mdr.SlidingContact(mdr.FlatPunch(1e-3), RUBBER, 0.3, MOTION, pull)
+        strong = replace(flat, tau_0=1e4)
+        assert mdr.critical_velocity(strong) == mdr.critical_velocity(flat)
+        assert_allclose(mdr.full_slip_critical_velocity(strong), mdr.full_slip_critical_velocity(flat), rtol=1e-9)
+    lost = replace(strong, pull=mdr.RigidPull(), oscillation=replace(MOTION, du_z=2 * DEPTH))
+    assert mdr.full_slip_critical_velocity(lost) > mdr.full_slip_critical_velocity(replace(lost, tau_0=0.0))
+
+
+def test_the_static_limit_is_least_force_and_least_area():
+    for material in (ELASTIC, RUBBER):
+        case = replace(BALL, material=material, mu_0=0.2)
+        slow = mdr.slide(case, 1e-5 * case.unit_velocity)
+        rise = 1e-3 if material is RUBBER else 1e-4  # like the power 2/3 of the velocity, and in proportion
+        assert_allclose(mdr.static_cof(case), slow.cof, atol=rise * full_cof(case))
+    lost = replace(case, oscillation=replace(MOTION, du_z=2 * DEPTH))
+    assert mdr.static_cof(lost) == 0
+
+
+def test_the_greatest_rate_of_a_face_that_keeps_its_radius_is_that_of_all_springs():
+    flat = mdr.SlidingContact(mdr.FlatPunch(1e-3), RUBBER, 0.3, MOTION, tau_0=1e4)
+    assert greatest_rate(flat, lambda phase: np.cos(phase)) == 1.0
+
+
+def test_velocity_of_a_share_turns_the_law_round():
+    case = replace(BALL, material=ELASTIC, mu_0=0.1)
+    v = mdr.laws.velocity_of_share(case, 0.999)
+    assert_allclose(mdr.laws.lost_at_the_edge(case, v), 1e-3, rtol=1e-9)
+    with pytest.raises(ValueError, match="elastic face with tau_0 > 0 under a rigid pull"):
+        mdr.laws.lost_at_the_edge(BALL, v)
+    with pytest.raises(ValueError, match="is below mu_0 kappa omega du_z"):
+        mdr.laws.lost_at_the_edge(case, 1e-3 * v)

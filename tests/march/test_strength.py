@@ -1,0 +1,117 @@
+"""Faces with a shear strength: runs beside the twin, the elastic paraboloid in closed form, the flat punch, limits."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import SHAPES
+from tables import strength as table
+
+import mdr
+
+OMEGA, DEPTH, ALPHA = table.OMEGA, table.DEPTH, 0.3
+ELASTIC, KELVIN, ARMS = (one[0] for one in table.MATERIALS.values())
+MOTION = mdr.NormalOscillation(DEPTH, ALPHA * DEPTH, OMEGA)
+BALL = mdr.SlidingContact(SHAPES["paraboloid"][0], ELASTIC, 0.0, MOTION, tau_0=1e4)
+#: of the velocity, 2 tau_0/G* omega a at the mean depth
+UNIT = 2 * BALL.tau_0 / ELASTIC.G_star * OMEGA * np.sqrt(5e-3 * DEPTH)
+KNOBS = {"n_springs": 64, "steps_per_period": 256}
+
+RANDOM = {name: (case, v_0, known) for name, case, v_0, known in table.drawn(60)}
+
+
+def named(*numbers):
+    return [name for name in RANDOM if int(name.split(":")[0]) in numbers]
+
+
+def beside(name):
+    return table.row_of(name, *RANDOM[name], steps=2048, count=64)
+
+
+@pytest.mark.parametrize("name", named(1, 2, 3, 6, 8, 16, 18, 21, 28, 30, 32, 33, 36, 39))
+def test_runs_agree_with_the_twin(name):
+    """Elastic shapes, contact kept and lost; punches that keep it; rigid, under a body, shaken
+    along and across."""
+    row = beside(name)
+    assert row.settled
+    assert row.doubt < 1e-4
+    assert row.error <= row.bound, row
+
+
+@pytest.mark.parametrize("material", [mdr.KelvinVoigt(3e6, 0.4, 5e-3), ARMS], ids=["Kelvin", "arms"])
+def test_a_search_ends_where_a_march_does(material):
+    case = replace(BALL, mu_0=0.2, material=material)
+    v_0 = 0.15 * case.unit_velocity
+    run, march = (mdr.slide(case, v_0, n_periods=n, **KNOBS) for n in (None, 40))
+    assert run.settled
+    assert run.cof == pytest.approx(march.cof, abs=1e-7)
+
+
+@pytest.mark.parametrize("name", named(15, 16))
+def test_cof_error_covers_an_edge_that_comes_from_nothing(name):
+    """A round face, whose radius grows at once, and a punch, whose radius jumps."""
+    row = table.row_of(name, *RANDOM[name])
+    assert row.error <= row.bound, row
+
+
+def test_cof_error_covers_what_few_springs_do_not_see():
+    run = mdr.slide(BALL, 4 * UNIT)
+    assert abs(1 - run.share - 2 / (9 * np.pi**2) * (ALPHA / 4) ** 3) <= run.cof_error / run.full_cof
+
+
+@pytest.mark.parametrize(("v_hat", "lost", "digit"), [(0.1, 0.0940, 1e-4), (0.3, 0.0163, 1e-4), (1.0, 6.1e-4, 1e-5)])
+def test_what_an_elastic_paraboloid_loses(v_hat, lost, digit):
+    run = mdr.slide(BALL, v_hat * UNIT)
+    assert 1 - run.share == pytest.approx(lost, abs=digit / 2 + run.cof_error / run.full_cof)
+
+
+def test_fast_slides_lose_by_the_cube_of_the_velocity():
+    """(2/9 pi²)(alpha/v_hat)³; the springs that stick lie close to the edge, and many are needed to see them."""
+    off = []
+    for v_hat, n, steps in ((0.5, 256, 1024), (1.0, 256, 1024), (2.0, 512, 4096)):
+        run = mdr.slide(BALL, v_hat * UNIT, n_springs=n, steps_per_period=steps)
+        law = 2 / (9 * np.pi**2) * (ALPHA / v_hat) ** 3
+        off.append(abs(1 - run.share - law) / law)
+        within = run.cof_error / run.full_cof / law
+    assert off[0] > off[1] > off[2] - within
+    assert off[2] < 0.02
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN, ARMS], ids=["elastic", "Kelvin", "arms"])
+def test_a_punch_in_contact_loses_as_by_coulomb_friction(material):
+    """The limit of each of its springs is higher by a constant."""
+    plain = mdr.SlidingContact(SHAPES["flat"][0], material, 0.4, MOTION)
+    v_0, lost = 0.4 * plain.unit_velocity, []
+    for case in (plain, replace(plain, tau_0=2e4)):
+        run = mdr.slide(case, v_0, n_periods=60, **KNOBS)
+        lost.append(run.full_cof * run.mean_F_z - run.mean_F_x)
+    assert lost[0] > 0.01 * run.mean_F_x
+    assert lost[1] == pytest.approx(lost[0], abs=1e-12 * run.mean_F_x)
+    assert run.full_cof == pytest.approx(0.4 + 2e4 * np.pi * 1e-6 / run.mean_F_z, rel=1e-12)
+
+
+def test_no_strength_is_coulomb_friction_to_the_bit():
+    plain = replace(BALL, mu_0=0.4, tau_0=0.0, material=KELVIN)
+    same = mdr.SlidingContact(plain.indenter, plain.material, plain.mu_0, plain.oscillation)
+    one, other = (mdr.slide(case, 0.4 * same.unit_velocity, **KNOBS) for case in (plain, same))
+    assert one == other
+    assert one.full_cof == 0.4
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [({"tau_0": 0.0}, "mu_0"), ({"tau_0": -1.0, "mu_0": 0.4}, "tau_0"), ({"tau_0": np.nan, "mu_0": 0.4}, "tau_0")],
+)
+def test_a_face_without_friction_and_a_strength_that_is_none_are_refused(values, words):
+    with pytest.raises(ValueError, match=words):
+        replace(BALL, **values)
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN], ids=["elastic", "Kelvin"])
+@pytest.mark.parametrize("mu_0", [0.0, 0.4])
+def test_energies_close_where_contact_is_kept(material, mu_0):
+    """Of a rigid pull all is exact but the bend of the limit over a step, which work and heat both see."""
+    case = replace(BALL, material=material, mu_0=mu_0)
+    run = mdr.slide(case, 0.3 * case.unit_velocity, **KNOBS)
+    assert run.energy_balance.friction_loss > 0
+    assert abs(run.energy_balance.relative) < 1e-6
