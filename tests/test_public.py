@@ -29,6 +29,7 @@ SIGNATURES = {
     "TruncatedCone": "b, theta",
     "TruncatedParaboloid": "b, R",
     "RoundedPunch": "b, R",
+    "RoughFace": "l_e, a_0",
     "CappedCone": "b, theta",
     "CappedParaboloid": "R1, R2, b",
     "ConstantPressure": "a_0, d_0",

@@ -13,6 +13,7 @@ from mdr.indenters.hyperboloid import Hyperboloid
 from mdr.indenters.paraboloid import Paraboloid
 from mdr.indenters.power_law import PowerLaw
 from mdr.indenters.profile import Profile
+from mdr.indenters.rough_face import RoughFace
 from mdr.indenters.rounded_punch import RoundedPunch
 from mdr.indenters.sampled_profile import SampledProfile
 from mdr.indenters.sphere import Sphere
@@ -21,6 +22,6 @@ from mdr.indenters.truncated_paraboloid import TruncatedParaboloid
 
 __all__ = [
     "CappedCone", "CappedParaboloid", "ConcavePunch", "Cone", "ConstantPressure", "Ellipsoid", "FlatPunch", "FromForce",
-    "Hyperboloid", "Indenter", "Paraboloid", "PowerLaw", "Profile", "RoundedPunch", "SampledProfile", "Sphere",
-    "TruncatedCone", "TruncatedParaboloid",
+    "Hyperboloid", "Indenter", "Paraboloid", "PowerLaw", "Profile", "RoughFace", "RoundedPunch", "SampledProfile",
+    "Sphere", "TruncatedCone", "TruncatedParaboloid",
 ]  # fmt: skip

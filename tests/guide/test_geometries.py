@@ -142,6 +142,12 @@ def test_hyperboloid_goes_from_cone_to_paraboloid_with_one_critical_velocity():
     assert rising(s.at_rest[::-1])
 
 
+def test_rough_faces_lose_up_to_a_velocity_in_proportion_to_their_length():
+    s = script("rough_face")
+    assert_allclose(s.v_c, s.law, rtol=1.1e-4)  # the patch of first touch bears a ten thousandth of the load
+    assert_allclose([curve.static_cof for curve in s.curves.values()], 0.4 * 0.8, rtol=1e-3)
+
+
 def test_truncated_cone_worn_loses_more_friction_as_it_is_less_deep():
     s = script("truncated_cone")
     assert_allclose(s.full, s.eq_15[s.marked], rtol=0.01)

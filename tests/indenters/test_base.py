@@ -56,9 +56,9 @@ def test_depth_is_g_of_the_radius(shape):
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_stiffness_is_the_slope_of_the_force_and_the_force_convex(shape):
-    d, h = depths(shape, 1e-9, 9e-5, 9), 1e-4
+    d, h = depths(shape, 1e-9, 9e-5, 9), 1e-5
     slope = (shape.force(d * (1 + h), E_STAR) - shape.force(d * (1 - h), E_STAR)) / (2 * h * d)
-    assert_allclose(shape.stiffness(d, E_STAR), slope, rtol=1e-7)  # h**2 / 6 times a power below 3
+    assert_allclose(shape.stiffness(d, E_STAR), slope, rtol=1e-7)  # h**2 / 6 times the square of a power below 50
     F = shape.force(np.linspace(shape.least_depth, d[-1], 50), E_STAR)
     assert np.all(np.diff(F, 2) >= -1e-12 * F[-1])
 
@@ -89,7 +89,7 @@ def test_arrays_floats_and_mirror_images(shape):
         assert shape.force(1e-300, 1.0) >= 0
 
 
-@pytest.mark.parametrize("shape", CURVED, ids=name)
+@pytest.mark.parametrize("shape", [shape for shape in CURVED if shape.is_body], ids=name)
 def test_a_function_with_its_kinks_named_is_the_closed_form(shape):
     mapped = Profile(shape.profile_3d, kinks=shape.kinks, r_max=None if shape.max_radius == np.inf else end(shape))
     x, d = np.geomspace(1e-9, min(20 * B, end(shape)), 60), depths(shape, 1e-9, 1.1e-4, 12)
