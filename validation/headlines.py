@@ -28,6 +28,7 @@ HEADLINES: dict[str, tuple[tuple[str, str], ...]] = {
         ("resonances", r"v_c over the full-slip value"),
         ("shaken_velocity", r"v_c measured over"),
         ("maps", r"measured v_c over that of full slip"),
+        ("shear_strength", r"measured v_c over full slip"),
         ("waveforms", r"v_c over that of the gain.*; by runs over full slip"),
     ),
 }
