@@ -29,6 +29,7 @@ from mdr.friction.measured_velocity import (
 )
 from mdr.friction.shaken import band_of_pull, no_load_velocity
 from mdr.half_space import run as half_space
+from mdr.half_space.normal import NotConverged
 from mdr.march.periodic.steady import BUDGET
 from mdr.march.result.slide import slide
 from mdr.normal.resolved import resolved
@@ -197,7 +198,10 @@ def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
     """How far springs are off, in a sentence. Raises ValueError for what the half-space cannot judge."""
     full = full_slip_critical_velocity(case)
     v_0 = (case.fastest_across or (full if 0 < full < np.inf else case.pace)) / 2
-    found, springs = half_space.slide(case, v_0), slide(case, v_0, accuracy=accuracy)
+    try:
+        found, springs = half_space.slide(case, v_0), slide(case, v_0, accuracy=accuracy)
+    except NotConverged as why:
+        return f"In three dimensions nothing is known at {v_0:.4g} m/s: {why}"
     off, error = springs.cof - found.cof, springs.cof_error + found.cof_error
     said = (
         f"In three dimensions the COF at {v_0:.4g} m/s is {with_error(found.cof, found.cof_error)}, with coupling, and "

@@ -26,7 +26,7 @@ from mdr.materials.operator import Rheology
 from mdr.normal.contact_edge import ContactEdge
 from mdr.normal.followed_force import N_STEPS, NormalCycle, followed_springs, normal_cycle
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import SAME, Array
 from mdr.tools.memoise import remembered
 
 if TYPE_CHECKING:
@@ -147,11 +147,16 @@ def _followed_edge(case: SlidingContact) -> PchipInterpolator:
     return PchipInterpolator(2 * np.pi / N_STEPS * time, np.tile(place, 3))
 
 
+def first_radius(case: SlidingContact) -> float:
+    """Radius of contact [m] as soon as it touches: that of a flat face, zero of a tip."""
+    return float(case.indenter.contact_radius(max(FIRST * case.cycle.unit, case.indenter.least_depth * (1 + SAME))))
+
+
 def mean_area(case: SlidingContact) -> float:
     """Mean area of contact [m²] over the period."""
     if case.material.contact_arms:
         a = contact_radius(case, 2 * np.pi / N_STEPS * (np.arange(float(N_STEPS)) + 0.5))
-        known, touch = followed(case), float(case.indenter.contact_radius(FIRST * case.cycle.unit))
+        known, touch = followed(case), first_radius(case)
         # a flat face is there at once, whenever in a step that is
         lost = float(np.mod(known.touches - known.leaves, 2 * np.pi).sum()) / (2 * np.pi)
         return float(np.pi * (np.mean(np.maximum(a, touch) ** 2) - touch**2 * lost))

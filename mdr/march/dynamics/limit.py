@@ -11,7 +11,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.loop import full_slip
-from mdr.normal.normal_force import FIRST, contact_radius
+from mdr.normal.normal_force import contact_radius, first_radius
 from mdr.spring.contact import Springs
 from mdr.spring.face import Faces
 from mdr.spring.law import Law
@@ -88,8 +88,8 @@ def faces_of(case: SlidingContact, unit: float, coulomb: float, steps: int) -> F
     if not case.tau_0:
         return None
     # without contact that of a first touch: a flat face has all of its radius at once, whenever in a step that is
-    touch = float(case.indenter.contact_radius(FIRST * case.cycle.unit))
-    a2 = (np.maximum(contact_radius(case, np.pi / steps * np.arange(2 * steps + 1.0)), touch) / unit) ** 2
+    radius = contact_radius(case, np.pi / steps * np.arange(2 * steps + 1.0))
+    a2 = (np.maximum(radius, first_radius(case)) / unit) ** 2
     begin, middle, end, h = a2[:-1:2], a2[1::2], a2[2::2], 2 * np.pi / steps
     parabola = np.column_stack([begin, (4 * middle - 3 * begin - end) / h, 2 * (begin + end - 2 * middle) / h**2])
     return Faces(coulomb, parabola)
