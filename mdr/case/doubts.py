@@ -30,6 +30,7 @@ SOFTEST, STIFFEST_SOLID = 300.0, 2e12  #: moduli [Pa] of a weak gel, and above d
 LEAST_DENSITY = 1000.0  #: of a solid [kg/m³] that is no foam; a greater one makes waves shorter
 HARDEST = 0.15  #: hardness over E*, above that of diamond, ceramics, metals and glassy polymers
 RUBBERY = 1e8  #: modulus [Pa] up to which a solid may bear more than its hardness, as rubber does
+STRONGEST = 0.3  #: shear strength over the modulus, above that of any face
 LEAST_MU_0 = 1e-3  #: a joint, and ice that melts, are above it
 MOST_G = 1e6  #: acceleration over that of gravity; an ultrasonic horn reaches some 1e5
 LEAST = 5e-4  #: amplitude over mean depth, chi and omega tau that have next to no effect
@@ -88,8 +89,17 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
         yield f"material: its modulus at this frequency, {modulus:.4g} Pa, is {side}?"
     if known.mu_0 > GREATEST_MU_0:
         yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
-    if known.mu_0 < LEAST_MU_0 and not known.tau_0:
-        yield f"mu_0 = {known.mu_0:.4g} is less than {LEAST_MU_0:g}, that of a joint: is it in another unit?"
+    if known.tau_0 > STRONGEST * modulus:
+        yield (
+            f"tau_0 = {known.tau_0:.4g} Pa is more than {STRONGEST:g} of the modulus, {modulus:.4g} Pa, which no face "
+            "bears: is it in another unit?"
+        )
+    d = known.contact_depth
+    area = np.pi * float(known.indenter.contact_radius(d)) ** 2
+    cof = known.mu_0 + (known.tau_0 and known.tau_0 * area / float(known.indenter.force(d, known.material.E_star)))
+    if cof < LEAST_MU_0:
+        name = "with tau_0, the coefficient of friction" if known.tau_0 else "mu_0"
+        yield f"{name} = {cof:.4g} is less than {LEAST_MU_0:g}, that of a joint: is it in another unit?"
 
 
 def _sizes(part: Any) -> Iterator[tuple[str, str, float]]:

@@ -129,6 +129,10 @@ class Asked(NamedTuple):
     def on(self, case: mdr.SlidingContact) -> float:
         """The value [SI] for a case. Raises WrongInput for a multiple where v_c is infinite or zero."""
         if self.of != OF_V_C:
+            if self.of and case.tau_0:
+                raise WrongInput(
+                    f"{self.number:g} mu_0: with a shear strength mu_0 is not the friction; give a number, or --share"
+                )
             return self.number * (case.mu_0 if self.of else 1)
         v_c = mdr.critical_velocity(case, -1 if self.number < 0 else 1)
         if wrong := _no_scale(v_c):

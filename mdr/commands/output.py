@@ -104,7 +104,7 @@ def velocity_text(v: float | None) -> str:
     """A critical velocity in words."""
     if v is None:
         return "none"
-    return "infinite, friction is below mu_0 at every velocity" if math.isinf(v) else f"{v:.6g} m/s"
+    return "infinite, friction is full at no velocity" if math.isinf(v) else f"{v:.6g} m/s"
 
 
 def _plain(value: Any) -> Any:

@@ -15,6 +15,7 @@ from mdr.case.doubts import edge, frequencies
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import formula_of
 from mdr.closed_forms.laws.across import full_across
+from mdr.closed_forms.laws.strength import has_edge_law
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
 from mdr.friction.shaken import HoldingBand, band_of_pull
 from mdr.friction.verdict import NEARLY
@@ -69,9 +70,9 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         full = f"; in full slip {full_cof(known):.6g}" if case.tau_0 else ""
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}{full}"
         told.append(Told("static_cof", static, "static COF", f"{static:.6g}", rest))
-        if known.always_sticks and known.pull.is_rigid and not known.rheology.remembers:
+        if has_edge_law(known):
             back, most = mdr.laws.velocity_of_share(known, 1 - NEARLY), f"{100 - 100 * NEARLY:g} %"
-            meaning = f"velocity from which about {most} of full friction is back (mdr.laws.velocity_of_share)"
+            meaning = f"velocity from which at least {most} of full friction is back (mdr.laws.velocity_of_share)"
             told.append(Told("nearly_full", back, most, f"{back:.6g} m/s", meaning))
     return [*told, Told("mu_0", case.mu_0), *ends_of(case)]
 
@@ -84,7 +85,7 @@ def _across(case: mdr.SlidingContact) -> list[Told]:
         *(Told(key, math.inf) for key in ("v_c_back", "full_slip", "full_slip_back")),
         Told("fastest_across", fastest, "across", f"{fastest:.6g} m/s", "greatest velocity of the shake across"),
     ]
-    if is_across_alone(known):
+    if is_across_alone(known) and not case.tau_0:
         full, most = full_across(known, NEARLY), f"{100 - 100 * NEARLY:g} %"
         meaning = f"velocity from which friction is at least {most} of mu_0 (mdr.laws.lost_across)"
         if math.isfinite(full):
@@ -172,5 +173,5 @@ def _span(held: HoldingBand | float) -> str:
 def equation_of(case: mdr.SlidingContact) -> tuple[str, str]:
     """Number and circumstances of the closed form."""
     number, closing, rest = formula_of(case).partition(")")
-    usual = "" if case.is_shaken else "contact stiffness at the mean depth"
+    usual = "" if case.is_shaken else "any amplitude" if "tau_0" in number else "contact stiffness at the mean depth"
     return number + closing, rest.strip() or usual

@@ -62,7 +62,7 @@ class Picture:
         a = float(known.indenter.contact_radius(depth)) if depth > 0 else 0.0
         rows = [("v_c", shown(self.v_c, "m/s", 4), "critical velocity in closed form")]
         if known.moves_across:
-            rows = [("v_c", "infinite", "shaken across, friction is below mu_0 at every velocity")]
+            rows = [("v_c", "infinite", "shaken across, friction is full at no velocity")]
         elif self.v_c_back is not None:
             rows.append(("v_c, other way", shown(self.v_c_back, "m/s", 4), "the same, pulled the other way"))
         elif self.static is not None:

@@ -22,6 +22,7 @@ from mdr.tools.warned import warn_outside
 
 PARTS = ("approach", "retract")
 RISE = 0.3  #: share of the force up to which touch and baseline are looked for
+ON_IT = 1e-3  #: part of a step of depth within which a reading is that of the touch
 POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat one to a cone
 FLAT = 5  #: points before the touch that make a baseline
 LEAST = 2  #: the same of a curve whose readings are no depths
@@ -56,7 +57,8 @@ def force_points(
     if touch is not None:
         early = np.arange(d.size) < np.argmax(RISE * F.max() <= F)
         below = np.flatnonzero(early & (F <= 0))  # before the touch, or by noise after it
-        kept = (d > touch) & (np.arange(d.size) > (below[-1] if below.size else -1))
+        step = np.diff(d).mean() if d.size > 1 else 0.0
+        kept = (d > touch + ON_IT * step) & (np.arange(d.size) > (below[-1] if below.size else -1))
         d, F = d[kept] - touch, F[kept]
     elif not are_depths:
         where = "above the surface" if d[0] < 0 else "far from 0"

@@ -134,6 +134,8 @@ def natural_unit(case: SlidingContact, path: str) -> float:
     known, omega = resolved(case), case.omega
     depth, E_star = known.u_z_max, case.material.E_star
     k = float(case.indenter.stiffness(depth, E_star))
+    if path == "tau_0":  # as much as bears the load by a coefficient of one
+        return float(case.indenter.force(depth, E_star)) / (np.pi * float(case.indenter.contact_radius(depth)) ** 2)
     units = {
         "m": depth, "s": 1 / omega, "Pa": E_star, "N": k * depth, "N/m": k, "N s/m": k / omega, "kg": k / omega**2,
         "rad/s": omega, "rad": 1.0, "-": 1.0,

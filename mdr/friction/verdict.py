@@ -18,7 +18,7 @@ from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
-from mdr.closed_forms.laws.strength import velocity_of_share
+from mdr.closed_forms.laws.strength import has_edge_law, velocity_of_share
 from mdr.friction.measured_velocity import (
     ACROSS,
     AT_THE_EDGE,
@@ -32,6 +32,7 @@ from mdr.half_space import run as half_space
 from mdr.half_space.normal import NotConverged
 from mdr.march.periodic.steady import BUDGET
 from mdr.march.result.slide import slide
+from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import between
@@ -210,11 +211,14 @@ def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
     if abs(off) <= error:
         slower = "; slower slides differ" if _held_too_much(case) > STRONG * case.mu_0 else ""
         return f"{said}: no difference beyond these errors{slower}"
-    return f"{said}: springs are too {'high' if off > 0 else 'low'} there by {abs(off) / case.mu_0:.1g} of mu_0"
+    sense = "high" if off > 0 else "low"
+    return f"{said}: springs are too {sense} there by {abs(off) / full_cof(case):.1g} of full friction"
 
 
 def _at_rest(case: SlidingContact) -> str:
     """What a shaken contact does whose pull stands still, and where nothing holds it."""
+    if case.tau_0:
+        return "At rest: what it holds is known by Coulomb's law alone"
     try:
         band, free = band_of_pull(case), no_load_velocity(case)
     except ValueError as unknown:
@@ -272,11 +276,11 @@ def _full_slip(case: SlidingContact) -> float:
 
 def _at_the_edge(case: SlidingContact) -> str:
     """What takes the place of a critical velocity on a curved face with a shear strength."""
-    said = f"{AT_THE_EDGE}; what is lost falls like v_0^-3"
-    if case.pull.is_rigid and not case.rheology.remembers and not case.is_shaken:
-        back = velocity_of_share(case, 1 - NEARLY)
-        said += f": it is {100 * NEARLY:g} % at about {back:.3g} m/s, at which friction is back in practice"
-    return f"{said}; the deeper the contact, the slower the pull at which it is"
+    if not has_edge_law(case):
+        return AT_THE_EDGE
+    back = velocity_of_share(case, 1 - NEARLY)
+    lost = f"it is at most {100 * NEARLY:g} % from {back:.3g} m/s on, where friction is back in practice"
+    return f"{AT_THE_EDGE}; what is lost falls like v_0^-3: {lost}"
 
 
 def across(case: SlidingContact) -> str:

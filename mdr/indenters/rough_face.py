@@ -79,7 +79,7 @@ class RoughFace(Indenter):
         Returns
         -------
         RoughFace
-            With l_e = apart/ln(F_2/F_1).
+            With l_e = apart/ln((F_2 + F_0)/(F_1 + F_0)), F_0 a thousandth of F_1.
 
         Raises
         ------
@@ -94,7 +94,7 @@ class RoughFace(Indenter):
         """
         F_1, apart = positive("F_1", F_1, "N"), positive("apart", apart, "m")
         F_2 = between("F_2", F_2, F_1, np.inf, "N: more than F_1, as it lies deeper")
-        return cls.under_load(F_1, apart / float(np.log(F_2 / F_1)), E_star)
+        return cls.under_load(F_1, apart / float(np.log((F_2 + START * F_1) / (F_1 + START * F_1))), E_star)
 
     is_body: ClassVar[bool] = False
 

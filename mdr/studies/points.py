@@ -132,7 +132,11 @@ def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
         return values
     v_c = critical_velocity(case)
     if not 0 < v_c < np.inf:
-        what = "zero" if v_c == 0 else "infinite, as on an undamped resonance and shaken across"
+        what = (
+            "zero"
+            if v_c == 0
+            else "infinite, as on an undamped resonance, shaken across, and of curved faces with tau_0"
+        )
         raise ValueError(f"v_0/v_c: the critical velocity of this case is {what}, so that its multiples say nothing")
     return values * v_c
 

@@ -100,7 +100,7 @@ def test_velocity_of_a_share_turns_the_law_round():
     case = replace(BALL, material=ELASTIC, mu_0=0.1)
     v = mdr.laws.velocity_of_share(case, 0.999)
     assert_allclose(mdr.laws.lost_at_the_edge(case, v), 1e-3, rtol=1e-9)
-    with pytest.raises(ValueError, match="elastic face with tau_0 > 0 under a rigid pull"):
+    with pytest.raises(ValueError, match="elastic face with tau_0 > 0 that keeps contact, under a rigid pull"):
         mdr.laws.lost_at_the_edge(BALL, v)
     with pytest.raises(ValueError, match="is below mu_0 kappa omega du_z"):
         mdr.laws.lost_at_the_edge(case, 1e-3 * v)

@@ -104,7 +104,7 @@ def test_velocity_for_machines(capsys, punch):
 
 
 def test_a_resonance_is_an_answer(capsys, resonant):
-    assert "infinite, friction is below mu_0 at every velocity" in words_of(capsys, ["velocity", resonant]).out
+    assert "infinite, friction is full at no velocity" in words_of(capsys, ["velocity", resonant]).out
     assert json_of(capsys, ["velocity", "--json", resonant])["v_c"] == "inf"
 
 
@@ -614,7 +614,7 @@ def test_the_cof_across_is_told_and_written(tmp_path, capsys, across):
     command = ["curve", across, "--accuracy", "1e-3", "--v-0", "-1e-3", "1e-3", "-o", str(tmp_path)]
     assert main(command) == 0
     out = capsys.readouterr().out
-    assert "infinite, friction is below mu_0 at every velocity either way by" in out
+    assert "infinite, friction is full at no velocity either way by" in out
     rows = [line.split() for line in out.splitlines() if line.strip().startswith(("-0.001", "0.001"))]
     assert [float(row[-1]) for row in rows] == pytest.approx([run["cof_y"]] * 2, abs=2e-3)
     assert float(rows[0][2]) == -float(rows[1][2])

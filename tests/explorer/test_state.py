@@ -255,7 +255,7 @@ def test_shaken_across_every_slip_has_its_direction():
     drawn = width * (shown[0, slips].astype(float) - len(MODES) + 0.5) - 180
     assert np.max(np.abs(drawn - angle[inmost, slips])) <= width / 2
     rows = {name: (value, meaning) for name, value, meaning in first.numbers}
-    assert rows["v_c"] == ("infinite", "shaken across, friction is below mu_0 at every velocity")
+    assert rows["v_c"] == ("infinite", "shaken across, friction is full at no velocity")
     assert float(rows["COF across"][0]) == pytest.approx(run.cof_y, abs=run.cof_error)
     assert "v_c, other way" not in rows
 
