@@ -35,7 +35,7 @@ OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the comma
 #: Imports against the order, each with its reason. The list may only shrink.
 NAMED: dict[tuple[str, str], str] = {}
 #: The one place that asks both springs and the half-space, to set them side by side.
-JUDGED = {("mdr.friction.verdict", "mdr.half_space.run")}
+JUDGED = {("mdr.friction.verdict", "mdr.half_space")}
 
 
 class Import(NamedTuple):

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mdr import half_space
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.across import is_across_alone, static_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
@@ -28,8 +29,6 @@ from mdr.friction.measured_velocity import (
     measure_critical_velocity,
 )
 from mdr.friction.shaken import band_of_pull, no_load_velocity
-from mdr.half_space import run as half_space
-from mdr.half_space.normal import NotConverged
 from mdr.march.periodic.steady import BUDGET
 from mdr.march.result.slide import slide
 from mdr.normal.normal_force import full_cof
@@ -201,7 +200,7 @@ def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
     v_0 = (case.fastest_across or (full if 0 < full < np.inf else case.pace)) / 2
     try:
         found, springs = half_space.slide(case, v_0), slide(case, v_0, accuracy=accuracy)
-    except NotConverged as why:
+    except half_space.NotConverged as why:
         return f"In three dimensions nothing is known at {v_0:.4g} m/s: {why}"
     off, error = springs.cof - found.cof, springs.cof_error + found.cof_error
     said = (
