@@ -67,7 +67,8 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         of a shaken contact that is lost in part of the period. Infinite on an undamped resonance, k_x = m (n omega)²
         with a harmonic F_n that is not zero. Infinite where something shakes the contact across the pull, as friction
         is full at no velocity then, and on curved elastic faces with a shear strength, where springs that the edge of
-        contact reaches stick at any velocity (full_slip_face.py). Infinite too for a body without mass and damper whose
+        contact reaches stick at any velocity (full_slip_face.py; a viscous half-space slips from a lower one on,
+        `mdr.laws.full_slip_of_half_space`). Infinite too for a body without mass and damper whose
         contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the tip is sharp): for an
         instant its velocity has no bound.
 

@@ -5,6 +5,10 @@ in contact and nothing else. So a spring slips for good where v_0 is above the g
 A flat face that keeps contact has a constant r, and nothing is added. On a curved elastic face a spring that the edge
 of contact has just reached may bear a force that grows like the root of time, faster than any pull: it always sticks.
 On a dashpot, r + tau r' = (2 tau_0/G*) sqrt(a² - x²), r' has a bound.
+
+Springs stand for a face with a strength in the mean alone. On a half-space of nu = 0 the strength on a disc moves the
+surface at the radius x by (4 tau_0/(pi G*)) a E(x/a), E the complete elliptic integral, and its rate at the edge grows
+like a logarithm, not like a root: with r + tau r' equal to that, also where the surface is free, r' is less.
 """
 
 from __future__ import annotations
@@ -16,7 +20,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.normal.normal_force import contact_radius, corners, edge_of
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 
 PHASES, PLACES = 1024, 96  #: at which rates are looked at; from the best of these on the greatest is sought
 
@@ -31,17 +35,8 @@ def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float
     if not case.edge_moves:
         return float(rest(phase).max())
     a = contact_radius(case, phase)
-    share = np.sin(np.linspace(0, np.pi / 2, PLACES, endpoint=False))
-    x = np.unique(np.concatenate([a.max() * share, a.min() + (a.max() - a.min()) * share**2]))
-    c, decay = np.sqrt(np.maximum(a[:, None] ** 2 - x**2, 0.0)), np.exp(-phase[1] / case.T)
-    mean = -np.expm1(-phase[1] / case.T) * case.T / phase[1]  # c goes on a line in a step
-    into = c * (mean - decay) + np.roll(c, -1, axis=0) * (1 - mean)
-    r = np.zeros_like(c)
-    for k in (*range(PHASES), *range(PHASES)):  # the second period begins where the first ends, and repeats
-        r[(k + 1) % PHASES] = decay * r[k] + into[k]
-        if k == PHASES - 1:
-            r[0] /= 1 - decay**PHASES
-    total = np.where(c > 0, rest(phase)[:, None] + _unit(case) * (c - r) / case.T, -np.inf)
+    x = _places(a)
+    total = rest(phase)[:, None] + _rates(case, a, x, np.sqrt(np.maximum(a[:, None] ** 2 - x**2, 0.0)))
     k, i = np.unravel_index(int(np.argmax(total)), total.shape)
 
     def less(at: Array) -> float:
@@ -51,6 +46,44 @@ def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float
     corners_of = start + np.array([[0.0, 0.0], [-size[0], 0.0], [0.0, size[1]]])
     options = {"initial_simplex": np.abs(corners_of), "xatol": 1e-9, "fatol": 1e-10 * abs(total[k, i])}
     return -float(minimize(less, start, method="Nelder-Mead", options=options).fun)
+
+
+def greatest_rate_of_half_space(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
+    """The same of the surface of a half-space of nu = 0, to about 1e-3; infinite on an elastic one."""
+    from scipy.special import ellipe, ellipk
+
+    phase = np.pi / PHASES * np.arange(2.0 * PHASES)
+    if not case.edge_moves:
+        return float(rest(phase).max())
+    if not case.T:
+        return float("inf")
+    a = contact_radius(case, phase)
+    x = _places(a)
+    least, most = np.minimum(a[:, None], x), np.maximum(a[:, None], x)
+    m = np.minimum(least / np.where(most > 0, most, 1.0), 1 - EXACT) ** 2
+    beyond = x * (ellipe(m) - (1 - m) * ellipk(m))
+    moved = 2 / np.pi * np.where(x < a[:, None], a[:, None] * ellipe(m), beyond)
+    return float(np.max(rest(phase)[:, None] + _rates(case, a, x, moved)))
+
+
+def _places(a: Array) -> Array:
+    """Where rates are looked at: close to the axis, and where the edge of contact turns."""
+    share = np.sin(np.linspace(0, np.pi / 2, PLACES, endpoint=False))
+    return np.unique(np.concatenate([a.max() * share, a.min() + (a.max() - a.min()) * share**2]))
+
+
+def _rates(case: SlidingContact, a: Array, x: Array, c: Array) -> Array:
+    """r' [m/s] (n_t, n_x) of r + tau r' = (2 tau_0/G*) c at places x in contact; -inf elsewhere. c goes on lines."""
+    n = len(c)
+    step = 2 * np.pi / n
+    decay, mean = np.exp(-step / case.T), -np.expm1(-step / case.T) * case.T / step
+    into = c * (mean - decay) + np.roll(c, -1, axis=0) * (1 - mean)
+    r = np.zeros_like(c)
+    for k in (*range(n), *range(n)):  # the second period begins where the first ends, and repeats
+        r[(k + 1) % n] = decay * r[k] + into[k]
+        if k == n - 1:
+            r[0] /= 1 - decay**n
+    return np.where(x < a[:, None], _unit(case) * (c - r) / case.T, -np.inf)
 
 
 def _unit(case: SlidingContact) -> float:

@@ -9,18 +9,18 @@ from mdr.case.paths import facts_at
 from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
 from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
-from mdr.friction.free_parameters import path_of
+from mdr.friction.find import searched_path
 from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
 
 def add_options_of_find(command: argparse.ArgumentParser) -> None:
     """The number that is searched for, the wish, and the range."""
-    known = "the number that is searched for, such as oscillation.du_z, load, frequency or alpha"
+    known = "the number that is searched for, such as oscillation.du_z, load, frequency, alpha or v_0"
     command.add_argument("path", help=known)
-    wish = "(--v-0 velocity (--cof friction | --share share) | --v-c velocity)"
+    wish = "([--v-0 velocity] (--cof friction | --share share) | --v-c velocity)"
     command.usage = f"%(prog)s case.toml path {wish} [--within low high]"
-    pulled = "pulling velocity, with --cof: 10mm/s, 0.5v_c"
+    pulled = "pulling velocity, with --cof or --share, unless it is searched for: 10mm/s, 0.5v_c"
     command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
     friction = quantity("a COF", "-", OF_MU_0)
     command.add_argument("--cof", metavar="friction", type=friction, help="friction that is wanted: 0.2, 0.5mu_0")
@@ -35,7 +35,7 @@ def find(args: argparse.Namespace, asked: Said) -> int:
     """Search and print; status 1 where there is no such value."""
     wish = {name: getattr(args, name).on(asked.case) for name in ("v_0", "cof", "v_c") if getattr(args, name)}
     with refusals():
-        path = path_of(asked.case, args.path)
+        path = searched_path(asked.case, args.path)
         unit = facts_at(path).unit
         within = args.within and tuple(value_in("--within", end, unit) for end in args.within)
         found = mdr.find(asked.case, path, **wish, share=args.share, within=within, held=asked.held)

@@ -72,7 +72,8 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         told.append(Told("static_cof", static, "static COF", f"{static:.6g}", rest))
         if has_edge_law(known):
             back, most = mdr.laws.velocity_of_share(known, 1 - NEARLY), f"{100 - 100 * NEARLY:g} %"
-            meaning = f"velocity from which at least {most} of full friction is back (mdr.laws.velocity_of_share)"
+            half_space = mdr.laws.velocity_of_share(known, 1 - NEARLY, half_space=True)
+            meaning = f"velocity from which at least {most} of full friction is back; {half_space:.3g} on a half-space"
             told.append(Told("nearly_full", back, most, f"{back:.6g} m/s", meaning))
     return [*told, Told("mu_0", case.mu_0), *ends_of(case)]
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from mdr.case.contact import OF_FACE, SlidingContact, as_given
 from mdr.case.paths import facts_at
-from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
 from mdr.given.mean_load import warn_of_mean_loads
@@ -33,6 +33,8 @@ from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ticker
 from mdr.tools.summary import Printed
+
+OF_RUN = "v_0"  #: a number that may be searched for and is none of the case
 
 
 @dataclass(frozen=True)
@@ -73,10 +75,10 @@ def find(
     case : SlidingContact
         The contact.
     path : str
-        The number: a path ("oscillation.du_z"), its last part where that is unique ("du_z"), a group ("alpha"), or
-        "load" [N], "frequency" [Hz], "tan_delta".
+        The number: a path ("oscillation.du_z"), its last part where that is unique ("du_z"), a group ("alpha"),
+        "load" [N], "frequency" [Hz], "tan_delta", or "v_0", the pulling velocity.
     v_0 : float, optional
-        Pulling velocity [m/s] at which friction is asked for.
+        Pulling velocity [m/s] at which friction is asked for; not where it is searched for.
     cof : float, optional
         The coefficient of friction [-] that is wanted at v_0.
     share : float, optional
@@ -85,7 +87,8 @@ def find(
     v_c : float, optional
         The critical velocity [m/s] that is wanted, as `critical_velocity` gives it. Give this, or v_0 and cof or share.
     within : (float, float), optional
-        Lowest and highest value. None: a tenth to ten times that of the case, as far as the case can have it.
+        Lowest and highest value. None: a tenth to ten times that of the case, as far as the case can have it; of v_0 a
+        thousandth to ten times the critical velocity, or of Eq. (1) where that is infinite or zero.
     held : mapping of str to float, optional
         "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold meanwhile, as in `sweep`. Beside a load "hold" says
         what stays: "depth", at which it rests, or "load", its mean. Without it a warning says where the mean differs.
@@ -110,18 +113,21 @@ def find(
     >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
     >>> print(mdr.find(case, "du_z", v_0=1e-4, cof=0.2))
     oscillation.du_z = 7.2068 µm, mean load 85.407 mN
+    >>> print(mdr.find(case, "v_0", share=0.9))
+    v_0 = 84.9517 µm/s, mean load 80.601 mN
     """
     case = as_given(case)
     at_rest(case)  # warns of what is unlikely
-    path = path_of(case, path)
+    path = searched_path(case, path)
     held = still_held(held or {}, [path])
-    search = _Search(
-        lambda value: changed(case, path, value, held),
-        _wish(case, path, v_0, cof, share, v_c),
-        *_range(case, path, within, held),
-    )
+
+    def at(value: float) -> SlidingContact:
+        return case if path == OF_RUN else changed(case, path, value, held)
+
+    wish = _wish(case, path, v_0, cof, share, v_c)
+    search = _Search(at, wish, *_range(case, path, within, held))
     values = tuple(search.values())
-    cases = tuple(map(search.at, values))
+    cases = tuple(map(at, values))
     loads = tuple(map(mean_normal_force, cases))
     asked = [load_asked({**held, path: value}, one) for value, one in zip(values, cases, strict=True)]
     told = [(load, mean) for load, mean in zip(asked, loads, strict=True) if load is not None]
@@ -129,10 +135,15 @@ def find(
     return Found(path, values, search.why(path, bool(values)), cases, loads)
 
 
+def searched_path(case: SlidingContact, name: Any) -> str:
+    """The path of a parameter in the case, or the pulling velocity."""
+    return OF_RUN if name == OF_RUN else path_of(case, name)
+
+
 class _Wish(NamedTuple):
     """What is asked of a case."""
 
-    ask: Callable[[SlidingContact, float], tuple[float, float]]  #: at an accuracy: what there is, and its error
+    ask: Callable[[SlidingContact, float, float], tuple[float, float]]  #: of a value: what there is, and its error
     wanted: float
     what: str
     unit: str
@@ -146,22 +157,28 @@ class _Wish(NamedTuple):
 
 def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: Any) -> _Wish:
     """What was asked for."""
-    if [cof, share, v_c].count(None) != 2 or (v_c is None) == (v_0 is None):
+    searched = path == OF_RUN
+    if searched and (v_0 is not None or v_c is not None or (cof is None) == (share is None)):
+        raise ValueError("of v_0 give one wish: cof or share; critical_velocity(case) is v_c")
+    if not searched and ([cof, share, v_c].count(None) != 2 or (v_c is None) == (v_0 is None)):
         raise ValueError("give one wish: cof or share at a velocity v_0, or v_c")
     if v_c is not None:
         wanted = positive("v_c", v_c, "critical velocity in m/s")
-        return _Wish(lambda one, _: (critical_velocity(one), 0.0), wanted, "v_c", "m/s")
-    speed = finite("v_0", v_0)
+        return _Wish(lambda one, *_: (critical_velocity(one), 0.0), wanted, "v_c", "m/s")
+    speed = 0.0 if searched else finite("v_0", v_0)
+    where = "" if searched else f" at {shown(speed, 'm/s')}"
+
+    def friction(one: SlidingContact, value: float, accuracy: float) -> tuple[float, float]:
+        return _settled(one, value if searched else speed, accuracy, in_full_slip=share is not None)
+
     if share is not None:
-        wanted, what = between("share", share, -1, 1, "of full friction"), f"the share at {shown(speed, 'm/s')}"
-        return _Wish(lambda one, accuracy: _settled(one, speed, accuracy, in_full_slip=True), wanted, what, "")
+        return _Wish(friction, between("share", share, -1, 1, "of full friction"), f"the share{where}", "")
     wanted = finite("cof", cof)
     if path not in OF_FACE and not case.tau_0 and abs(wanted) >= case.mu_0:
         raise ValueError(
             f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c"
         )
-    what = f"the COF at {shown(speed, 'm/s')}"
-    return _Wish(lambda one, accuracy: _settled(one, speed, accuracy), wanted, what, "")
+    return _Wish(friction, wanted, f"the COF{where}", "")
 
 
 def _settled(case: SlidingContact, v_0: float, accuracy: float, in_full_slip: bool = False) -> tuple[float, float]:
@@ -175,8 +192,11 @@ def _settled(case: SlidingContact, v_0: float, accuracy: float, in_full_slip: bo
 
 def _range(case: SlidingContact, path: str, within: Any, held: Mapping[str, Any]) -> tuple[float, float]:
     """The ends of the range."""
-    start = value_of(case, path, held)
+    if within is None and path == OF_RUN:
+        scale = velocity_scale(case)
+        return 1e-3 * scale, 10 * scale
     if within is None:
+        start = value_of(case, path, held)
         if start == 0:
             raise ValueError(f"{path} is zero in this case: give the range to search as within=(low, high)")
         low, high = (allowed(case, path, start, end, held) for end in sorted((start / 10, start * 10)))
@@ -205,7 +225,8 @@ class _Search:
         if x not in self.found or self.found[x][2] > accuracy:
             self.ticker.tick()
             try:
-                self.found[x] = *self.wish.ask(self.at(self.value(x)), accuracy), accuracy
+                value = self.value(x)
+                self.found[x] = *self.wish.ask(self.at(value), value, accuracy), accuracy
             except ValueError as refusal:
                 self.refused = str(refusal)
                 return np.nan

@@ -19,7 +19,7 @@ from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
-from mdr.closed_forms.laws.strength import has_edge_law, velocity_of_share
+from mdr.closed_forms.laws.strength import full_slip_of_half_space, has_edge_law, velocity_of_share
 from mdr.friction.measured_velocity import (
     ACROSS,
     AT_THE_EDGE,
@@ -260,7 +260,7 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
     elif found.v_c is None or not reasons:
         reasons.append(found.why)
     if case.tau_0 and case.edge_moves:
-        reasons.append("with a shear strength v_c knows the relaxation time, and the depth as the shape has it")
+        reasons.append(_knows_more(case))
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
 
@@ -273,13 +273,23 @@ def _full_slip(case: SlidingContact) -> float:
         return float("nan")
 
 
+def _knows_more(case: SlidingContact) -> str:
+    """What v_c of a curved viscous face with a shear strength knows, and how far springs are off."""
+    said = "with a shear strength v_c knows the relaxation time, and the depth as the shape has it"
+    try:
+        return f"{said}; a half-space slips all over from {full_slip_of_half_space(case):.3g} m/s on"
+    except ValueError:
+        return said
+
+
 def _at_the_edge(case: SlidingContact) -> str:
     """What takes the place of a critical velocity on a curved face with a shear strength."""
     if not has_edge_law(case):
         return AT_THE_EDGE
-    back = velocity_of_share(case, 1 - NEARLY)
-    lost = f"it is at most {100 * NEARLY:g} % from {back:.3g} m/s on, where friction is back in practice"
-    return f"{AT_THE_EDGE}; what is lost falls like v_0^-3: {lost}"
+    springs, half_space = (velocity_of_share(case, 1 - NEARLY, half_space=one) for one in (False, True))
+    lost = f"it is at most {100 * NEARLY:g} % from {springs:.3g} m/s on, where friction is back in practice"
+    faster = f"on a half-space it falls exponentially, and is as little from {half_space:.3g} m/s on"
+    return f"{AT_THE_EDGE}; what is lost falls like v_0^-3: {lost}; {faster}"
 
 
 def across(case: SlidingContact) -> str:

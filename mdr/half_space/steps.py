@@ -24,6 +24,8 @@ from mdr.half_space.normal import NotConverged, pressure
 from mdr.half_space.tangential import stiffness_of, traction
 from mdr.tools.arrays import EXACT, Array
 
+RIM = (np.pi - 1 + np.log(2)) / 24  #: of a cell's area, for a side at the edge of contact (Yastrebov et al. 2017)
+
 
 @dataclass(frozen=True)
 class Step:
@@ -60,8 +62,17 @@ class Contact:
         return self.half_space.h**2
 
     def limit(self, pressure: Array) -> Array:
-        """The greatest traction along the surface [Pa] in cells of this pressure, of any shape."""
-        return self.mu_0 * pressure + self.tau_0 * (pressure > 0)
+        """The greatest traction along the surface [Pa] in cells of this pressure, (n, n).
+
+        A shear strength acts on the area of contact, of which cells have too much: each side of a cell at the edge of
+        contact takes the part RIM of it away.
+        """
+        if not self.tau_0:
+            return self.mu_0 * pressure
+        touches = np.pad(pressure > 0, 1).astype(float)
+        others = touches[2:, 1:-1] + touches[:-2, 1:-1] + touches[1:-1, 2:] + touches[1:-1, :-2]
+        share: Array = touches[1:-1, 1:-1] * (1 - RIM * (4 - others))
+        return self.mu_0 * pressure + self.tau_0 * share
 
     def full_slip(self, depth: float, way: float = 1.0) -> Step:
         """The state at rest at this depth with all cells at their limit along x, to begin with; way: 1, or -1.

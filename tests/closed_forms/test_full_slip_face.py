@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.special import ellipe, ellipk
 
 import mdr
 from mdr.closed_forms.full_slip_face import greatest_rate
@@ -18,27 +19,56 @@ UNIT = 2 * BALL.tau_0 / RUBBER.G_star * OMEGA
 BODY = mdr.SpringPull(k_x=2e3, m=0.01, c_x=2.0)
 
 
-def own_rate(case):
-    """The greatest r' of r + tau r' = (2 tau_0/G*) sqrt(a² - x²) [m/s], in steps that are exact for straight limits."""
+def by_springs(a, x):
+    return np.sqrt(np.maximum(a**2 - x**2, 0.0))
+
+
+def by_a_half_space(a, x):
+    """What a strength of G*/2 on a disc of radius a moves the surface by at x."""
+    m = np.minimum(np.where(x < a, x / a, a / x) ** 2, 1 - 1e-15)
+    return 2 / np.pi * np.where(x < a, a * ellipe(m), x * (ellipe(m) - (1 - m) * ellipk(m)))
+
+
+def own_rate(case, moved, places):
+    """The greatest r' of r + tau r' = (2 tau_0/G*) moved [m/s], in steps that are exact for straight limits."""
     n, periods = 16384, 4
     a = contact_radius(case, 2 * np.pi * np.arange(n) / n)
-    x, most = np.linspace(0.3, 0.9999, 400) * a.max(), -np.inf
+    x, most = places * a.max(), -np.inf
     h = case.period / n
     decay, (r, c) = np.exp(-h / TAU), np.zeros((2, x.size))
     for k in range(periods * n):
-        after = np.sqrt(np.maximum(a[k % n] ** 2 - x**2, 0.0))
+        after = moved(a[k % n], x)
         mean = -np.expm1(-h / TAU) * TAU / h
         r = decay * r + c * (mean - decay) + after * (1 - mean)
         c = after
         if k >= (periods - 1) * n:
-            most = max(most, np.where(c > 0, (c - r) / TAU, -np.inf).max())
+            most = max(most, np.where(x < a[k % n], (c - r) / TAU, -np.inf).max())
     return 2 * case.tau_0 / case.material.G_star * most
 
 
 @pytest.mark.parametrize("amplitude", [0.3, 1.5])
 def test_full_slip_is_an_own_sum(amplitude):
     case = replace(BALL, oscillation=replace(MOTION, du_z=amplitude * DEPTH))
-    assert_allclose(mdr.full_slip_critical_velocity(case), own_rate(case), rtol=1e-4)  # of the grid of x
+    own = own_rate(case, by_springs, np.linspace(0.3, 0.9999, 400))
+    assert_allclose(mdr.full_slip_critical_velocity(case), own, rtol=1e-4)  # of the grid of x
+
+
+def test_full_slip_of_a_half_space_is_an_own_sum():
+    v_c = mdr.laws.full_slip_of_half_space(BALL)
+    assert_allclose(v_c, own_rate(BALL, by_a_half_space, np.linspace(0.8, 0.9999, 100)), rtol=1e-3)
+    assert v_c < mdr.full_slip_critical_velocity(BALL)
+    deeper = replace(BALL, oscillation=replace(MOTION, u_z0=2 * DEPTH))
+    assert 0.7 < mdr.laws.full_slip_of_half_space(deeper) / v_c < 0.85
+    assert "a half-space slips all over from" in str(mdr.verdict(BALL))
+
+
+def test_where_nothing_moves_the_edge_springs_are_the_half_space():
+    flat = mdr.SlidingContact(mdr.FlatPunch(1e-3), RUBBER, 0.3, MOTION, tau_0=1e4)
+    v_c = mdr.laws.full_slip_of_half_space(flat)
+    assert_allclose(v_c, mdr.full_slip_critical_velocity(flat), rtol=1e-4)  # of the grid of phases
+    assert mdr.laws.full_slip_of_half_space(replace(BALL, material=ELASTIC)) == np.inf
+    with pytest.raises(ValueError, match="without a shake, got KelvinVoigt, SpringPull"):
+        mdr.laws.full_slip_of_half_space(replace(BALL, pull=BODY))
 
 
 @pytest.mark.parametrize("pull", [mdr.RigidPull(), BODY], ids=["rigid", "body"])
@@ -98,8 +128,9 @@ def test_the_greatest_rate_of_a_face_that_keeps_its_radius_is_that_of_all_spring
 
 def test_velocity_of_a_share_turns_the_law_round():
     case = replace(BALL, material=ELASTIC, mu_0=0.1)
-    v = mdr.laws.velocity_of_share(case, 0.999)
-    assert_allclose(mdr.laws.lost_at_the_edge(case, v), 1e-3, rtol=1e-9)
+    for half_space in (False, True):
+        v = mdr.laws.velocity_of_share(case, 0.999, half_space=half_space)
+        assert_allclose(mdr.laws.lost_at_the_edge(case, v, half_space=half_space), 1e-3, rtol=1e-9)
     with pytest.raises(ValueError, match="elastic face with tau_0 > 0 that keeps contact, under a rigid pull"):
         mdr.laws.lost_at_the_edge(BALL, v)
     with pytest.raises(ValueError, match="is below mu_0 kappa omega du_z"):

@@ -95,7 +95,24 @@ def test_trial_runs_are_coarse_and_the_answer_is_not(monkeypatch):
     assert asked.count(BUDGET) <= 8 < asked.count(LEAST_ACCURATE)
 
 
+@pytest.mark.parametrize("case", [CASE, BODY], ids=["rigid", "body"])
+def test_the_velocity_of_a_share(case):
+    found = mdr.find(case, "v_0", share=0.95)
+    assert found.cases == (case,) * len(found.values)
+    for v_0 in found.values:
+        assert_allclose(mdr.slide(case, v_0).share, 0.95, atol=1e-6)
+    assert mdr.find(case, "v_0", cof=0.95 * case.mu_0).values == found.values
+
+
+def test_of_the_velocity_there_is_one_wish():
+    for wish in ({"v_0": 1e-3, "share": 0.9}, {"v_c": 1e-3}, {"cof": 0.1, "share": 0.9}, {}):
+        with pytest.raises(ValueError, match="of v_0 give one wish: cof or share"):
+            mdr.find(CASE, "v_0", **wish)
+
+
 NONE = [
+    ({"path": "v_0", "share": 0.1},
+     "none: the share lies between 0.71"),
     ({"path": "du_z", "v_0": 1e-2, "cof": 0.1, "within": (1e-6, 2e-6)},
      "none: the COF at 10 mm/s is 0.5 for oscillation.du_z from 1 µm to 2 µm, and 0.1 is asked for"),
     ({"path": "du_z", "v_0": 1e-4, "cof": 0.1, "within": (1e-6, 2e-6)}, "none: the COF at 100 µm/s lies between 0.4"),

@@ -10,6 +10,7 @@ import mdr
 from mdr.half_space import NotConverged, friction, run, slide
 from mdr.half_space.friction import Settings, in_three_dimensions
 from mdr.half_space.run import SETTLED
+from mdr.normal.normal_force import mean_area
 from validation.half_space.benchmarks import share_of_error
 
 BALL = mdr.SlidingContact(
@@ -79,6 +80,13 @@ def test_a_fast_pull_slips_all_over_without_a_shake_across():
     found = slide(without_coupling(BALL), 3 * UNIT, coupled=False, **FEW)
     assert (found.kind, found.stick_share, found.settled) == ("full slip", 0.0, True)
     assert_allclose(found.cof, 0.3, rtol=1e-9)
+
+
+def test_a_shear_strength_acts_on_the_true_area():
+    case = replace(without_coupling(BALL), tau_0=1e4)
+    found = in_three_dimensions(case, 50 * UNIT, Settings(cells=17, steps=12, cycles=2, coupled=False))
+    known = case.mu_0 * found.mean_F_z + case.tau_0 * mean_area(case)
+    assert_allclose(found.mean_F_x, known, rtol=6e-3)  # cells that touch have 1.04 of the area
 
 
 @pytest.mark.parametrize(

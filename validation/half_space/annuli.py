@@ -43,14 +43,14 @@ def annuli(n: int) -> Annuli:
     """n of them."""
     edges = np.linspace(0, 1, n + 1)
     r = 0.5 * (edges[1:] + edges[:-1])
-    area, moved = np.pi * np.diff(edges**2), np.diff([_disc(r, R) for R in edges], axis=0).T
+    area, moved = np.pi * np.diff(edges**2), np.diff([disc(r, R) for R in edges], axis=0).T
     root = np.sqrt(area)
     mutual = root[:, None] * moved / root
     return Annuli(r, area, 0.5 * (mutual + mutual.T) / root[:, None] * root)
 
 
-def _disc(r: Array, R: float) -> Array:
-    """The displacement by a traction 1 on the disc of radius R."""
+def disc(r: Array, R: float) -> Array:
+    """The displacement (n,) at the radii r by a traction 1 on the disc of radius R; modulus 1."""
     if R == 0:
         return np.zeros_like(r)
     m = np.minimum(r / R, R / r) ** 2

@@ -31,7 +31,8 @@ Body, slow material, T >> 1
 Face with a shear strength, abs(tau) <= tau_0 + mu_0 p
     A spring that the edge of contact has just reached has a limit that grows like the root of time, faster than any
     pull: it sticks at any velocity, until v_0 t has come to it. So a curved elastic face has no critical velocity; what
-    is lost falls like v_0^-3.
+    is lost falls like v_0^-3 by springs. It falls exponentially on a half-space, where a ring at the edge sticks whose
+    width is 32 a exp(-pi G* v_0/(2 tau_0 a')).
 
 Body, finite amplitude
     A curved contact grows and shrinks within the period. With s = d ln k_zc/d ln d the normal force is, to second order
@@ -66,15 +67,16 @@ from mdr.closed_forms.laws.rigid_pull import (
     touch_depth,
 )
 from mdr.closed_forms.laws.shaken import EllipticDrive, elliptic_drive, held_under_shake, lost_under_shake, rigid_shake
-from mdr.closed_forms.laws.strength import lost_at_the_edge, velocity_of_share
+from mdr.closed_forms.laws.strength import full_slip_of_half_space, lost_at_the_edge, velocity_of_share
 from mdr.closed_forms.laws.waveform import best_waveform, steepest_waveform, waveform_critical, waveform_loss
 
 __all__ = [
     "EllipticDrive", "LeastOverDepth", "amplitude_limit", "best_waveform", "blow", "coupled_critical_velocity",
-    "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive", "excess_across", "first_order", "half_a_blow",
-    "harmonic_share", "held_across", "held_under_shake", "late_return", "least_over_depth", "load_error", "lock_in",
-    "lost_across", "lost_at_the_edge", "lost_under_shake", "onset", "radial_rub", "random_end", "random_friction",
-    "random_loss", "resonance_residue", "rigid_across", "rigid_shake", "rise_of_lost_punch", "slow_limit",
-    "slow_random_loss", "steepest_waveform", "steered_across", "stiffened_by_coupling", "stiffness_exponent",
-    "touch_depth", "velocity_of_share", "waveform_critical", "waveform_loss",
+    "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive", "excess_across", "first_order",
+    "full_slip_of_half_space", "half_a_blow", "harmonic_share", "held_across", "held_under_shake", "late_return",
+    "least_over_depth", "load_error", "lock_in", "lost_across", "lost_at_the_edge", "lost_under_shake", "onset",
+    "radial_rub", "random_end", "random_friction", "random_loss", "resonance_residue", "rigid_across",
+    "rigid_shake", "rise_of_lost_punch", "slow_limit", "slow_random_loss", "steepest_waveform", "steered_across",
+    "stiffened_by_coupling", "stiffness_exponent", "touch_depth", "velocity_of_share", "waveform_critical",
+    "waveform_loss",
 ]  # fmt: skip

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.full_slip_face import greatest_rate_of_half_space
 from mdr.normal.normal_force import contact_radius, mean_area, mean_normal_force
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME, Array
@@ -13,7 +14,7 @@ from mdr.tools.checks import between, positive
 INSTANTS = 4096  #: of a period, over which the passage of the edge is summed
 
 
-def lost_at_the_edge(case: SlidingContact, v_0: float) -> float:
+def lost_at_the_edge(case: SlidingContact, v_0: float, *, half_space: bool = False) -> float:
     """Share of full friction [-] that a curved elastic face with a shear strength loses in a fast slide.
 
     A spring that the edge of contact has just reached bears (2 tau_0/G*) sqrt(2 a a' t), which no pull outruns: it
@@ -22,10 +23,18 @@ def lost_at_the_edge(case: SlidingContact, v_0: float) -> float:
 
         loss of F_x = (4/3) G* (2 tau_0/G*)^4 mean over the period of a² a'³/v³ where a' > 0
 
-    A rigid pull. To leading order in 1/v_0, above v_c of Coulomb's part, next to which it says too much. For a
-    paraboloid and mu_0 = 0 it is (2/(9 pi²)) (alpha/v)³ of the whole at small alpha, v being
-    v_0/((2 tau_0/G*) omega sqrt(R u_z0)): for the same du_z, the deeper the contact, the slower the pull at
-    which friction is back [shear_strength].
+    For a paraboloid and mu_0 = 0 it is (2/(9 pi²)) (alpha/v)³ of the whole at small alpha, v being
+    v_0/((2 tau_0/G*) omega sqrt(R u_z0)).
+
+    A half-space loses less: a strength tau_0 on a disc moves the surface by (4 tau_0/(pi G*)) a E(r/a), whose rate, by
+    (4 tau_0/(pi G*)) a' K(r/a), grows like a logarithm towards the edge, and not like a root. What sticks is a ring of
+    the width 32 a exp(-pi G* v/(2 tau_0 a')) within the edge, in which tau/tau_0 = (2/pi) arcsin sqrt(s) over the
+    share s of the width. It bears half of the strength::
+
+        loss of F_x = 32 pi tau_0 mean over the period of a² exp(-pi G* v/(2 tau_0 a')) where a' > 0
+
+    Either way a rigid pull, and to leading order in fast slides, above v_c of Coulomb's part, next to which it says too
+    much. For the same du_z, the deeper the contact, the slower the pull at which friction is back [shear_strength].
 
     Parameters
     ----------
@@ -33,6 +42,8 @@ def lost_at_the_edge(case: SlidingContact, v_0: float) -> float:
         An elastic contact that is kept, under a rigid pull, which nothing shakes in the plane.
     v_0 : float
         Pulling velocity [m/s], above mu_0 kappa omega du_z.
+    half_space : bool
+        False is the law of springs, True that of a half-space without coupling: exact for nu = 0, and close to it else.
 
     Returns
     -------
@@ -49,8 +60,10 @@ def lost_at_the_edge(case: SlidingContact, v_0: float) -> float:
     >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
     >>> ball, rubber = mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
     >>> case = mdr.SlidingContact(ball, rubber, 0.0, vibration, tau_0=1e4)
-    >>> print(f"{mdr.laws.lost_at_the_edge(case, 1e-3):.2e}")
-    2.20e-04
+    >>> for half_space in (False, True):
+    ...     print(f"{mdr.laws.lost_at_the_edge(case, 3e-4, half_space=half_space):.2e}")
+    8.17e-03
+    6.32e-04
     """
     case, v_0 = _edge_case(case), positive("v_0", v_0, "pulling velocity in m/s")
     a, a_rate, slip = _passage(case)
@@ -60,12 +73,17 @@ def lost_at_the_edge(case: SlidingContact, v_0: float) -> float:
             f"v_0 = {v_0:.6g} m/s is below mu_0 kappa omega du_z = {float(slip.max()):.4g} m/s, where springs stick "
             "that the edge does not pass: ask slide(case, v_0)"
         )
-    G_star = case.material.G_star
-    lost = 4 / 3 * G_star * (2 * case.tau_0 / G_star) ** 4 * float(np.mean(a**2 * np.maximum(a_rate, 0.0) ** 3 / v**3))
+    G_star, outwards = case.material.G_star, np.maximum(a_rate, 0.0)
+    if half_space:
+        with np.errstate(divide="ignore"):
+            sticks = 32 * np.exp(-np.pi * G_star / (2 * case.tau_0) * (v / outwards))
+        lost = np.pi * case.tau_0 * float(np.mean(a**2 * sticks))
+    else:
+        lost = 4 / 3 * G_star * (2 * case.tau_0 / G_star) ** 4 * float(np.mean(a**2 * outwards**3 / v**3))
     return lost / (case.mu_0 * mean_normal_force(case) + case.tau_0 * mean_area(case))
 
 
-def velocity_of_share(case: SlidingContact, share: float) -> float:
+def velocity_of_share(case: SlidingContact, share: float, *, half_space: bool = False) -> float:
     """Pulling velocity [m/s] at which a share of the friction of a curved elastic face with a shear strength is back.
 
     It stands in the place of a critical velocity, which is infinite: where `lost_at_the_edge` comes to 1 - share. As
@@ -79,6 +97,8 @@ def velocity_of_share(case: SlidingContact, share: float) -> float:
         An elastic contact that is kept, under a rigid pull, which nothing shakes in the plane.
     share : float
         F_x over the friction of full slip [-], above 0.9 and below 1.
+    half_space : bool
+        Which law, as there.
 
     Returns
     -------
@@ -95,24 +115,72 @@ def velocity_of_share(case: SlidingContact, share: float) -> float:
     >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
     >>> ball, rubber = mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
     >>> case = mdr.SlidingContact(ball, rubber, 0.0, vibration, tau_0=1e4)
-    >>> print(f"{1e3 * mdr.laws.velocity_of_share(case, 0.99):.3f} mm/s")
+    >>> for half_space in (False, True):
+    ...     print(f"{1e3 * mdr.laws.velocity_of_share(case, 0.99, half_space=half_space):.3f} mm/s")
     0.280 mm/s
+    0.210 mm/s
     """
     from scipy.optimize import brentq
 
     case, share = _edge_case(case), between("share", share, 0.9, 1, "of full friction, such as 0.99")
     slowest = float(_passage(case)[2].max())
     unit, lost = case.unit_velocity, 1 - share
+
+    def loss(v_0: float) -> float:
+        return lost_at_the_edge(case, v_0, half_space=half_space)
+
     # the loss is between that at mu_0 = 0 and one that grows without bound towards the slowest velocity
     high = slowest + unit
-    while lost_at_the_edge(case, high) > lost:
+    while loss(high) > lost:
         high = slowest + 2 * (high - slowest)
     low, least = high, max(SAME * slowest, 1e-9 * unit)
-    while lost_at_the_edge(case, low) <= lost:
+    while loss(low) <= lost:
         if low - slowest < least:
             return slowest  # next to nothing is lost beside Coulomb's part
         low = slowest + 0.5 * (low - slowest)
-    return float(brentq(lambda v: lost_at_the_edge(case, v) / lost - 1, low, high, xtol=1e-15 * high, rtol=1e-13))
+    return float(brentq(lambda v: loss(v) / lost - 1, low, high, xtol=1e-15 * high, rtol=1e-13))
+
+
+def full_slip_of_half_space(case: SlidingContact) -> float:
+    """Velocity of full slip [m/s] of a face with a shear strength on a half-space without coupling.
+
+    `full_slip_critical_velocity` is that of springs, which it is on a flat face that keeps contact too. On a curved
+    viscous one springs say too much: at small amplitudes the half-space slips all over from a fraction of it on, and
+    its velocity knows the depth. Found on a grid, to about 1e-3; exact for nu = 0 [shear_strength].
+
+    Parameters
+    ----------
+    case : SlidingContact
+        An elastic or Kelvin contact under a rigid pull, which nothing shakes in the plane.
+
+    Returns
+    -------
+    float
+        v_c [m/s]; infinite on a curved elastic face, where a ring at the edge always sticks.
+
+    Raises
+    ------
+    ValueError
+        For a material with relaxation times, another pull, or a shake.
+
+    Examples
+    --------
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
+    >>> ball, rubber = mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3)
+    >>> case = mdr.SlidingContact(ball, rubber, 0.0, vibration, tau_0=1e4)
+    >>> for v_c in (mdr.full_slip_critical_velocity(case), mdr.laws.full_slip_of_half_space(case)):
+    ...     print(f"{1e3 * v_c:.3f} mm/s")
+    0.385 mm/s
+    0.203 mm/s
+    """
+    case = resolved(case)
+    if not _is_pulled_alone(case) or case.material.contact_arms:
+        raise ValueError(
+            "the half-space is elastic or Kelvin, under a rigid pull without a shake, got "
+            f"{type(case.material).__name__}, {type(case.pull).__name__}, shake = {case.shake!r}: ask "
+            "full_slip_critical_velocity(case), which is that of springs"
+        )
+    return greatest_rate_of_half_space(case, lambda phase: _slip(case, phase))
 
 
 def has_edge_law(case: SlidingContact) -> bool:
@@ -142,5 +210,8 @@ def _passage(case: SlidingContact) -> tuple[Array, Array, Array]:
     half = np.pi / INSTANTS
     ends = contact_radius(case, np.append(phase - half, phase[-1] + half))
     rate = np.diff(ends) * case.omega / (2 * half)
-    slip = case.mu_0 * case.material.mindlin_ratio * case.omega * case.cycle.unit * case.cycle.rate(phase)
-    return contact_radius(case, phase), rate, slip
+    return contact_radius(case, phase), rate, _slip(case, phase)
+
+
+def _slip(case: SlidingContact, phase: Array) -> Array:
+    return np.asarray(case.mu_0 * case.material.mindlin_ratio * case.omega * case.cycle.unit * case.cycle.rate(phase))
