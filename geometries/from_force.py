@@ -25,8 +25,8 @@ def indented(relative):
 
 
 def from_curve(force, relative):
-    """The shape behind a force curve, smoothed a little more than its noise."""
-    return mdr.FromForce(depths, force, gel.E_star, tip="round", smoothing=1.5 * relative * force[-1])
+    """The shape behind a force curve, whose noise is known."""
+    return mdr.FromForce(depths, force, gel.E_star, tip="round", smoothing=relative * force[-1])
 
 
 def fitted_ball(force):

@@ -15,17 +15,16 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
+from mdr.indenters.mapping.force_curves import TIPS, Curve, Near, Through
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
-from mdr.indenters.mapping.shape_check import why_no_shape, why_not
-from mdr.indenters.mapping.splines import DEGREE, spline
-from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, require_ascent, require_pairs
+from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape, why_not
+from mdr.indenters.mapping.splines import DEGREE
+from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, not_ascending, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
 from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
-
-TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
@@ -43,8 +42,9 @@ class FromForce(Indenter):
     """The shape whose normal force is F at the depths d, measured on a body of modulus E_star.
 
     Depths and forces ascend from d = 0, F = 0. F' must not fall: the contact does not shrink while it is pressed
-    deeper. For noisy forces ``smoothing`` is their standard deviation; the spline then keeps that far from them on
-    average. E_star belongs to the measurement; the shape itself has none.
+    deeper. For noisy forces ``smoothing`` is their standard deviation; the shape is then that of the simplest curve of
+    a growing contact that keeps no further from them on average. E_star belongs to the measurement; the shape itself
+    has none.
 
     With ``tip="any"``, ln F is a quintic spline in ln d, and below the first depth F goes on as a power of d. Powers,
     as of cone, paraboloid and punch, are then exact to rounding, 1e-12. 100 even points of a sphere up to a = R/2 give
@@ -78,13 +78,11 @@ class FromForce(Indenter):
                 f"d and F must begin with 0, got {self.d[0]:.6g} m and {self.F[0]:.6g} N: give depth and force less "
                 "those of the first touch"
             )
-        if self.smoothing == 0:
-            require_ascent("F", self.F)
-        elif (least := min(self.F[1:])) <= 0:
-            raise ValueError(f"F must be positive for d > 0, got {least:.6g} N: leave such depths out")
-        why, smoothing = why_not(self, np.array(self.d), np.array(self.F), "N")
+        d, F = np.array(self.d), np.array(self.F)
+        falls = "" if self.smoothing else not_ascending("F", self.F)
+        why, smoothing = (falls, told_smoothing(self, d, F, "N")) if falls else why_not(self, d, F, "N")
         if why:  # the contact must grow while it is pressed deeper
-            raise ValueError(f"F must rise more and more steeply, but {why}; {smoothing}")
+            raise ValueError(f"{why if falls else f'F must rise more and more steeply, but {why}'}; {smoothing}")
 
     @classmethod
     def read(
@@ -220,59 +218,37 @@ class FromForce(Indenter):
         return f"FromForce({known}{smoothed})"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name not in ("_spline", "_least_radius")}
+        return {name: value for name, value in self.__dict__.items() if name not in ("_curve", "_least_radius")}
 
     @cached_property
-    def _spline(self) -> tuple[Any, Any]:
-        """ln(F/F_1) less its power over `_place`, from the first depth d_1 > 0 to the last, and its slope."""
+    def _curve(self) -> Curve:
         d, F = np.array(self.d[1:]), np.array(self.F[1:])
-        y = np.log(F / F[0]) - TIPS[self.tip] * np.log(d / d[0])
-        found = spline(self._place(d), y, self.smoothing / F)
-        return found, found.derivative()
-
-    def _place(self, d: Array) -> Array:
-        return np.asarray(np.log(d / self.d[1]) if self.tip == "any" else d / self.d[1] - 1)
-
-    @property
-    def _power(self) -> float:
-        """Exponent of F ~ d^n at the tip."""
-        return TIPS[self.tip] or max(float(self._spline[1](0.0)), 1.0)
+        return Near(d, F, self.tip, self.smoothing) if self.smoothing else Through(d, F, self.tip)
 
     @cached_property
     def _least_radius(self) -> float:
         """a at d → 0 [m]: of a flat tip that of its face, else 0."""
-        return float(self._radius(np.zeros(1))[0]) if self._power - 1 < SAME else 0.0
-
-    def _log_force(self, d: Array) -> tuple[Array, Array]:
-        """ln(F/F_1) and its slope over ln d, at depths d > 0."""
-        z, known = self._place(d), TIPS[self.tip]
-        y, slope = (one(z if known else np.maximum(z, 0)) for one in self._spline)
-        if known:
-            return y + known * np.log(d / self.d[1]), known + slope * (1 + z)
-        return y + self._power * np.minimum(z, 0), np.where(z < 0, self._power, slope)  # a power below the first depth
+        return float(self._radius(np.zeros(1))[0]) if self._curve.power - 1 < SAME else 0.0
 
     def _force(self, d: Array) -> Array:
         F = np.zeros(np.shape(d))
-        F[d > 0] = self.F[1] * np.exp(self._log_force(d[d > 0])[0])
+        F[d > 0] = self._curve.force(d[d > 0])
         return F
 
     def _radius(self, d: Array) -> Array:
         """a at depths d > 0, and its limit at d = 0."""
-        d = np.maximum(d, np.finfo(float).tiny)
-        y, slope = self._log_force(d)
-        with np.errstate(under="ignore"):
-            F_over_d = self.F[1] / self.d[1] * np.exp(y - np.log(d / self.d[1]))
-        return np.asarray(F_over_d * slope / (2 * self.E_star))
+        return self._curve.rise(np.maximum(d, np.finfo(float).tiny)) / (2 * self.E_star)
 
     def _depth(self, x: Array) -> Array:
         """d with a(d) = x; 0 up to the least radius."""
         d = np.zeros_like(x)
         todo = x > self._least_radius * (1 + SAME)
-        a_1, rise = float(self._radius(np.array([self.d[1]]))[0]), self._power - 1
-        if self.tip == "any" and rise > SAME:
+        end, rise = self._curve.power_to, self._curve.power - 1
+        if end and rise > SAME:
+            a_1 = float(self._radius(np.array([end]))[0])
             power = todo & (x <= a_1)
             with np.errstate(under="ignore"):
-                d[power] = self.d[1] * (x[power] / a_1) ** (1 / rise)
+                d[power] = end * (x[power] / a_1) ** (1 / rise)
             todo &= ~power
         if todo.any():
             start = np.full(int(np.sum(todo)), self.d[1])
@@ -288,11 +264,7 @@ class FromForce(Indenter):
 
     def _why_no_shape(self) -> str:
         """What is wrong with the contact at depths eight times as many as those measured; empty for a shape."""
-        if self.tip == "any" and self._spline[1](0.0) < 1 - SAME:
-            return f"its slope falls at d = {self.d[1]:.6g} m, so that the contact would shrink there"
-        n = len(self.d) - 1
-        z = np.interp(np.arange(8 * n - 7) / 8, np.arange(n), self._place(np.array(self.d[1:])))
+        d = self._curve.places
         with np.errstate(all="ignore"):
-            d = self.d[1] * (np.exp(z) if self.tip == "any" else np.concatenate([np.geomspace(1e-9, 0.99, 32), 1 + z]))
             # a(d) may fall by 1e-6 of its greatest value: the spline's doing
-            return why_no_shape(d, self._radius(d), self._force(d) / self.E_star, 1e-6)
+            return self._curve.why or why_no_shape(d, self._radius(d), self._force(d) / self.E_star, 1e-6)

@@ -262,10 +262,14 @@ def require_pairs(name: str, x: Sequence[float], other: str, y: Sequence[float],
 
 def require_ascent(name: str, x: Sequence[float]) -> None:
     """ValueError unless each number is above the one before."""
+    if why := not_ascending(name, x):
+        raise ValueError(f"{why}: sort the points by {name} and take the mean of those at the same {name}")
+
+
+def not_ascending(name: str, x: Sequence[float]) -> str:
+    """Where a number is not above the one before; empty if each is."""
     falls = np.flatnonzero(np.less_equal(x[1:], x[:-1]))
-    if falls.size:
-        i = int(falls[0])
-        raise ValueError(
-            f"{name} must ascend, got {x[i]:.6g} and then {x[i + 1]:.6g} (numbers {i + 1} and {i + 2}): "
-            f"sort the points by {name} and take the mean of those at the same {name}"
-        )
+    if not falls.size:
+        return ""
+    i = int(falls[0])
+    return f"{name} must ascend, got {x[i]:.6g} and then {x[i + 1]:.6g} (numbers {i + 1} and {i + 2})"

@@ -51,7 +51,8 @@ def not_negative(name: str, value: Any, note: str = "") -> float:
 def between(name: str, value: Any, low: float, high: float, note: str = "") -> float:
     """A number strictly between low and high."""
     number = finite(name, value)
-    return _ruled(name, number, low < number < high, f"lie between {low:.6g} and {high:.6g}", note)
+    rule = f"lie between {low:.6g} and {high:.6g}" if math.isfinite(high) else f"be above {low:.6g}"
+    return _ruled(name, number, low < number < high, rule, note)
 
 
 def ends(name: str, given: Any) -> tuple[float, float]:
