@@ -29,7 +29,7 @@ from validation.measured import TOLERANCE, measured, power
 from validation.report import Check, Checks, Claim, Equation, told
 
 TAU_0 = 1e4  #: shear strength [Pa]
-FALLING = (0.5, 1.0, 2.0, 4.0)  #: v̂ of the tail, times n of a face r^n: so fast does the edge move
+FALLING = (0.5, 4.0)  #: v̂ of the tail, times n of a face r^n: so fast does the edge move
 VISCOUS = (  # shape, alpha, T, mu_0
     ("paraboloid", 0.3, 0.5, 0.0), ("cone", 0.3, 2.0, 0.0), ("r^4", 0.6, 1.0, 0.2), ("paraboloid", 1.5, 1.0, 0.2),
     ("cone", 0.1, 0.3, 0.0), ("cone", 1.2, 0.5, 0.1), ("r^4", 0.2, 3.0, 0.0), ("paraboloid", 0.05, 5.0, 0.0),
@@ -92,7 +92,7 @@ def claim(effort: str) -> Claim:
     lower than springs have it. A flat punch keeps Eqs. (1) and (15).
     """
     quick = effort == "quick"
-    chosen = VISCOUS[:4] if quick else VISCOUS
+    chosen = VISCOUS[: 2 if quick else None]
     points = [
         measured(strong(*one), f"{one[0]}, α = {one[1]:g}, {loss(one[2])}, μ_0 = {one[3]:g}")
         for one in progress(chosen, "shear_strength")
@@ -105,7 +105,7 @@ def claim(effort: str) -> Claim:
     mu_0, strength = _of_the_table()
     tau_0 = 1e-3 * strength / PLATE
     met = np.abs(mu_0 + strength / LOADS - OVER_LOAD)[[4, 6]].max()
-    space = [_in_space(*one) for one in IN_SPACE[: 1 if quick else None]]
+    space = [_in_space(*one, cells=24 if quick else 48) for one in IN_SPACE[: 1 if quick else None]]
     off_space = 100 * max(abs(springs - annuli) for springs, annuli, *_ in space)
     of_space, of_ball = (
         laws.full_slip_of_half_space(strong("paraboloid", alpha, 0.5, u_z0=d)) / other
@@ -117,8 +117,8 @@ def claim(effort: str) -> Claim:
     apart, n_viscous, n_space = _apart(6 if quick else 14), len(chosen), len(space)
     told_apart = 100 * float(np.mean(np.abs(apart[2]) > 0.1))
     checks = (
-        *_punch_checks(), *_static_checks(), *_tail_checks(), *_end_checks(points), *_depth_checks(of_depth),
-        *_table_checks(), *_space_checks(space), *_logarithm_checks(of_ball),
+        *_punch_checks(), *_static_checks(), *_tail_checks(1 if quick else None), *_end_checks(points),
+        *_depth_checks(of_depth), *_table_checks(), *_space_checks(space), *_logarithm_checks(of_ball),
     )  # fmt: skip
     return Claim(
         "shear_strength",
@@ -197,14 +197,14 @@ def _tail(shape: str, mu_0: float) -> tuple[Array, Array, Array]:
     return np.array(FALLING) / POWERS[shape], lost, np.array([laws.lost_at_the_edge(case, one) for one in v])
 
 
-def _tail_checks() -> Checks:
-    for shape, mu_0 in (("paraboloid", 0.0), ("cone", 0.0), ("r^4", 0.0), ("paraboloid", 0.2)):
+def _tail_checks(n: int | None) -> Checks:
+    for shape, mu_0 in (("paraboloid", 0.2), ("paraboloid", 0.0), ("cone", 0.0), ("r^4", 0.0))[:n]:
         v, lost, law = _tail(shape, mu_0)
         miss = np.abs(lost / law - 1)
-        name = f"lost at v̂ = {v[3]:.3g} over the law, {shape}, μ_0 = {mu_0:g}"
-        yield Check(name, lost[3] / law[3], 1.0, 0.02, "next order in 1/v̂; 1e-8 of friction in the run")
-        name = f"its miss at v̂ = {v[3]:.3g} over that at {v[0]:.3g}, {shape}, μ_0 = {mu_0:g}"
-        yield Check.at_most(name, miss[3] / miss[0], 0.3, "falls with v̂, and 1e-8 of friction in the run")
+        name = f"lost at v̂ = {v[1]:.3g} over the law, {shape}, μ_0 = {mu_0:g}"
+        yield Check(name, lost[1] / law[1], 1.0, 0.02, "next order in 1/v̂; 1e-8 of friction in the run")
+        name = f"its miss at v̂ = {v[1]:.3g} over that at {v[0]:.3g}, {shape}, μ_0 = {mu_0:g}"
+        yield Check.at_most(name, miss[1] / miss[0], 0.3, "falls with v̂, and 1e-8 of friction in the run")
     alpha = 0.02
     case = strong("paraboloid", alpha)
     closed = 2 / (9 * np.pi**2) * alpha**3
@@ -263,13 +263,13 @@ def _annuli(shape: str, alpha: float, v: float, T: float = 0.0, n: int = 300) ->
     return 2 * growing.lost(a, pull, T, n) - growing.lost(a, pull, T, n // 2)
 
 
-def _in_space(shape: str, alpha: float, v: float) -> tuple[float, float, float, float, str]:
+def _in_space(shape: str, alpha: float, v: float, cells: int) -> tuple[float, float, float, float, str]:
     """Share of full friction by springs, annuli and cells, the error of cells, and where."""
     case = strong(shape, alpha)
     at = v * unit_of(case)
-    springs, cells = mdr.slide(case, at), mdr.half_space.slide(case, at, coupled=False, cells=48)
+    springs, space = mdr.slide(case, at), mdr.half_space.slide(case, at, coupled=False, cells=cells)
     full, where = springs.full_cof, f"{shape}, α = {alpha:g}, v̂ = {v:g}"
-    return springs.share, 1 - _annuli(shape, alpha, v), cells.cof / full, cells.cof_error / full, where
+    return springs.share, 1 - _annuli(shape, alpha, v), space.cof / full, space.cof_error / full, where
 
 
 def _space_checks(space: list[tuple[float, float, float, float, str]]) -> Checks:
@@ -338,7 +338,7 @@ def _tail_figure(fig, ax, quick: bool):
     on the half-space it falls exponentially. On a viscous material it ends, at the velocity of full slip (dotted for
     springs), which falls with the relaxation time; the half-space slips all over from a lower one on.
     """
-    v = np.geomspace(0.05, 8, 9 if quick else 25)
+    v = np.geomspace(0.05, 8, 5 if quick else 25)
     for T, colour in zip((0.0, 0.5, 2.0), COLOURS, strict=False):
         case = strong("paraboloid", 0.3, T)
         unit, end = unit_of(case), mdr.full_slip_critical_velocity(case)
@@ -354,7 +354,8 @@ def _tail_figure(fig, ax, quick: bool):
         )
         last = 0.45 if np.isinf(end) else 0.97 * laws.full_slip_of_half_space(case) / unit
         near = np.linspace(v[0], last, v.size)
-        ax.plot(near, [_annuli("paraboloid", 0.3, float(one), T) for one in near], color=colour, lw=1.2)
+        n = 80 if quick else 300
+        ax.plot(near, [_annuli("paraboloid", 0.3, float(one), T, n) for one in near], color=colour, lw=1.2)
         if np.isfinite(end):
             ax.axvline(end / unit, color=colour, ls=":", lw=1.2)
     tail = v[v > 0.3]
