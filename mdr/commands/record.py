@@ -53,7 +53,7 @@ def record(args: argparse.Namespace, _: None) -> int:
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {fault}") from None
     write_found(args, found.plot, found.table(), "", mdr.write_case(case))
-    values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "mean_F_z", "n_springs")
+    values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "late_cof", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
     whole, kept = (float(t[-1] - t[0]) for t in (recorded["t"], found.t))
@@ -105,7 +105,8 @@ def add_options_of_motion(command: argparse.ArgumentParser) -> None:
     known = plain_number("Hz", "a frequency such as 80Hz")
     command.add_argument("--frequency", metavar="80Hz", type=known, help="fundamental (default: it is found)")
     add_reading(command, of_time=True)
-    command.epilog = "The table [oscillation] goes into a case file. Positive a_z points into the half-space."
+    command.epilog = 'The table [oscillation] goes into a case file, where load = "5 N" may stand in the place of u_z0.'
+    command.epilog += " Positive a_z points into the half-space."
 
 
 def motion(args: argparse.Namespace, _: None) -> int:

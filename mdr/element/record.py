@@ -69,6 +69,17 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
     F_z: Array  #: (n_t,) normal force [N]
     running_cof: Array  #: (n_t,) mean F_x over mean F_z up to each sample [-]; 0 before the first contact
 
+    @property
+    def late_cof(self) -> float:
+        """Mean F_x over mean F_z of the second half of the record [-], from the samples.
+
+        A record begins without force in the plane; where it is long beside the build-up from there, its first half
+        holds all of that. NaN where nothing touches in the second.
+        """
+        late = self.t >= (self.t[0] + self.t[-1]) / 2
+        x, z = (float(np.trapezoid(F[late], self.t[late])) for F in (self.F_x, self.F_z))
+        return x / z if z > 0 else float("nan")
+
     def _summary(self) -> Summary:
         spent = self.energy_balance
         return Summary(
@@ -76,6 +87,7 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
             [
                 ("COF", with_error(self.cof, self.cof_error), f"mean F_x/mean F_z; mu_0 = {number(self.mu_0)}"),
                 ("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z"),
+                ("COF, late", number(self.late_cof), "of the second half of the record, which began at rest"),
                 ("depth", span(self.u_z, "m"), ""),
                 ("F_x", span(self.F_x, "N"), ""),
                 ("F_y", span(self.F_y, "N"), ""),

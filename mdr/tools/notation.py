@@ -35,7 +35,7 @@ UNITS = {
     "Hz": _prefixed("Hz", "mkM") | {"rad/s": 1 / math.tau},
     "rad": _prefixed("rad", "m") | dict.fromkeys(("deg", "°"), math.pi / 180),
     "deg": dict.fromkeys(("deg", "°"), 1.0) | {"rad": 180 / math.pi},
-    "s": _prefixed("s", "mµn"),
+    "s": _prefixed("s", "mµn") | {"min": 60.0, "hr": 3600.0},
     "kg": {"kg": 1.0} | _prefixed("g", "mµ", 1e-3),
     "N/m": _prefixed("N/m", "kMmµ") | {"N/mm": 1e3, "N/µm": 1e6},
     "N s/m": _prefixed("N s/m", "kmµ") | {"N s/mm": 1e3},
@@ -45,7 +45,10 @@ UNITS = {
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}
 ZEROS = dict.fromkeys(("degC", "°C", "C"), 273.15)  #: what 0 in a unit is in that of the library, where it is not 0
 #: other words for symbols
-WORDS = {"sec": "s", "seconds": "s", "msec": "ms", "usec": "us", "micron": "um", "microns": "um", "angstrom": "Å"}
+WORDS = {
+    "sec": "s", "seconds": "s", "msec": "ms", "usec": "us", "minutes": "min", "hours": "hr",
+    "micron": "um", "microns": "um", "angstrom": "Å",
+}  # fmt: skip
 #: which of them is shown, with a prefix, in the place of the unit of the library
 SHOWN = {"rad/s": "Hz", "rad": "deg", "kg": "g"}
 

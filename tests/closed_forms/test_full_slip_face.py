@@ -31,7 +31,7 @@ def by_a_half_space(a, x):
 
 def own_rate(case, moved, places):
     """The greatest r' of r + tau r' = (2 tau_0/G*) moved [m/s], in steps that are exact for straight limits."""
-    n, periods = 16384, 4
+    n, periods = 8192, 2
     a = contact_radius(case, 2 * np.pi * np.arange(n) / n)
     x, most = places * a.max(), -np.inf
     h = case.period / n

@@ -158,6 +158,17 @@ def written(folder, text):
     return ["record", str(folder / "motion.csv"), str(folder / "case.toml")]
 
 
+def test_the_second_half_of_a_slide_from_rest_has_no_build_up_in_it():
+    """A ball slips all over from mu_0 kappa d on."""
+    t = np.linspace(0, 1, 401)
+    reach = MU_0 * ELASTIC.mindlin_ratio * 2e-5
+    found = mdr.slide_record(BALL, ELASTIC, MU_0, t, 2.1 * reach * t, u_z=2e-5)
+    assert found.cof < 0.9 * MU_0
+    assert_allclose(found.late_cof, MU_0, rtol=1e-12)
+    lifted = mdr.slide_record(BALL, ELASTIC, MU_0, t, reach * t, u_z=np.where(t < 0.4, 2e-5, -1e-5))
+    assert np.isnan(lifted.late_cof)
+
+
 def test_the_command_writes_what_it_prints(tmp_path, capsys):
     rows = "\n".join(f"{k},{3 * np.sin(k):.6f},20" for k in range(50))
     line = written(tmp_path, f"t [ms], u_x [um], u_z [um]\n{rows}\n")
