@@ -44,13 +44,17 @@ AREAS = {
 """,
     "picture": """
 @media (max-width: 720px) { :host {
-        flex: 0 0 94% !important; scroll-snap-align: start; max-height: 52vh; overflow: hidden auto !important; } }
+        flex: 0 0 100% !important; scroll-snap-align: start; max-height: min(52vh, 410px); overflow: hidden auto !important; } }
 """,
 }
 IN_SIGHT = """
 @media (min-width: 721px) and (max-width: 1150px) { :host {
         position: sticky !important; top: 0; z-index: 4; background: white; } }
 """
+ASIDE = """
+<style>@media (min-width: 721px) { .aside { display: none; } }</style>
+<span class="aside" style="float:right;font-weight:400;font-size:13px;color:#666">swipe: the springs →</span>
+"""  #: in the heading of the first picture, where the second one stands beside it out of sight
 STALE = {"opacity": "0.4", "transition": "opacity 0.2s 0.4s"}  #: of a picture of other values, if it stays for long
 FRESH = {"opacity": "1", "transition": "opacity 0.2s"}
 LISTED = """

@@ -64,7 +64,7 @@ class Page:
         title = "<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration"
         top = pn.FlexBox(pn.pane.HTML(title), pn.pane.HTML("load a case:"), given, reset, align_items="center")
         pictures = look.column(
-            look.area("curve", look.heading("Friction over velocity"), self.faded["curve"], self.status),
+            look.area("curve", look.heading(f"Friction over velocity{look.ASIDE}"), self.faded["curve"], self.status),
             look.area("springs", look.heading("The springs over a period"), self.faded["springs"]),
             stylesheets=[look.PICTURES],
         )
