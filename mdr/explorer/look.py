@@ -44,7 +44,8 @@ AREAS = {
 """,
     "picture": """
 @media (max-width: 720px) { :host {
-        flex: 0 0 100% !important; scroll-snap-align: start; max-height: min(52vh, 410px); overflow: hidden auto !important; } }
+        flex: 0 0 100% !important; scroll-snap-align: start; max-height: min(52vh, 410px);
+        overflow: hidden auto !important; } }
 """,
 }
 IN_SIGHT = """
