@@ -146,6 +146,11 @@ class Slow:
         return cls(rheology.slow, rheology.slow / (1 + rheology.slow) * (s[0] - s[1]))
 
 
+def _share_of_disc(springs: SpringArray, a: float) -> float:
+    """Twice the integral of sqrt(a² - x²) as the springs sum it, over pi a²: a strength has the whole disc."""
+    return float(springs.width @ np.sqrt(np.maximum(a**2 - springs.x**2, 0.0))) * 2 / (np.pi * a**2)
+
+
 @dataclass(frozen=True, eq=False)
 class ScaledContact:
     """The parts of a contact that the march needs."""
@@ -185,6 +190,7 @@ class ScaledContact:
         units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
         law, coulomb = law_of(rheology.T, rheology.rho, rheology.theta), case.mu_0 * case.material.mindlin_ratio * unit
         radius = length_x * springs.G_star * (1 + slow.rho) / (2 * case.tau_0) if case.tau_0 else np.inf
+        radius *= _share_of_disc(springs, float(case.indenter.contact_radius(case.u_z_max))) if case.tau_0 else 1.0
         faces = faces_of(case, radius, coulomb / length_x, steps)
         row = row._replace(x2=(springs.x / radius) ** 2 if faces else None)
         body, across = (

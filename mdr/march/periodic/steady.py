@@ -120,14 +120,6 @@ class Converged:
         more = case.tau_0 * mean_area(case) if case.tau_0 else 0.0
         return case.mu_0 + more / (self.mean_F_z * units.stiffness_z * units.length_z)
 
-    def friction(self, share: float) -> float:
-        """COF [-] of a share of full slip: the springs tell what is lost, and the area of contact all that there is."""
-        units, case = self.scaled.units, self.case
-        if not case.tau_0:
-            return case.mu_0 * share
-        unit = units.stiffness_x * units.length_x / (units.stiffness_z * units.length_z)
-        return self.full_cof - self.scaled.limit.mean / self.mean_F_z * unit * (1 - share)
-
     @property
     def load_error(self) -> float:
         """Relative error of the mean normal force under a load that is given; zero where the depth is."""

@@ -215,7 +215,7 @@ def finish(end: Converged) -> SlidingRun:
     if settling.settled and march.may_rest_elsewhere:
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
     return SlidingRun(
-        cof=end.friction(cof),
+        cof=full * cof,
         cof_y=full * across,
         cof_error=full * (min(error + own, UNKNOWN) if settling.settled else UNKNOWN),
         settled=settling.settled,
@@ -223,7 +223,7 @@ def finish(end: Converged) -> SlidingRun:
         why=why if settling.settled else _why_not(march),
         stick_share=sticks,
         least_slip=float(sums[LEAST_SLIP]) * scaled.units.speed,
-        mean_F_x=end.friction(cof) * mean_F_z,
+        mean_F_x=full * cof * mean_F_z,
         mean_F_y=full * across * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
