@@ -23,8 +23,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     points = whole_number(2)
     command.add_argument("--points", metavar="n", type=points, help=f"how many velocities (default: {POINTS})")
     which = command.add_mutually_exclusive_group()
-    highest = f"highest velocity: 5e-3 [m/s], 5mm/s, 1.5v_c (default: {UP_TO:g}v_c)"
-    which.add_argument("--up-to", metavar="velocity", type=velocity, default=Asked(UP_TO, OF_V_C), help=highest)
+    highest = f"highest velocity: 5e-3 [m/s], 5mm/s, 1.5v_c (default: {UP_TO:g}v_c; less with tau_0)"
+    which.add_argument("--up-to", metavar="velocity", type=velocity, help=highest)
     listed = "these velocities, in m/s, with a unit or over the v_c of their way: 1e-3 2mm/s 0.5v_c"
     which.add_argument("--v-0", metavar="velocity", type=velocity, nargs="+", help=listed)
     command.epilog = "The curve begins at zero velocity; of a contact shaken in the plane, at --up-to the other way."
@@ -59,14 +59,21 @@ def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[floa
         if min(given) < 0 and not case.is_shaken:
             raise WrongInput(f"--v-0 must not be negative, got {min(given):.6g} m/s: nothing shakes in the plane")
         return given
-    asked = args.up_to
+    asked = args.up_to or Asked(UP_TO, OF_V_C)
     if asked.number <= 0:
         raise WrongInput(f"--up-to must be above zero, got {asked.number:.6g}")
     if asked.of and (said := stand_in_of_v_c(case)):
         complain(said)
-    forward, back = (asked.number * (velocity_scale(one) if asked.of else 1) for one in (case, case.mirrored))
+    of = _v_c_or_scale if args.up_to else velocity_scale
+    forward, back = (asked.number * (of(one) if asked.of else 1) for one in (case, case.mirrored))
     found: list[float] = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS).tolist()
     return found
+
+
+def _v_c_or_scale(case: mdr.SlidingContact) -> float:
+    """v_c [m/s], or what stands in its place where it is infinite or zero."""
+    v_c = mdr.critical_velocity(case)
+    return v_c if 0 < v_c < math.inf else velocity_scale(case)
 
 
 def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:

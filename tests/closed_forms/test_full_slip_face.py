@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.special import ellipe, ellipk
 
 import mdr
+from mdr.closed_forms.critical_velocity import velocity_scale
 from mdr.closed_forms.full_slip_face import greatest_rate
 from mdr.normal.normal_force import contact_radius, full_cof
 
@@ -99,6 +100,13 @@ def test_springs_at_a_moving_edge_stick_at_any_velocity_without_a_dashpot():
     with pytest.raises(ValueError, match="known on elastic and Kelvin materials, got Prony"):
         mdr.full_slip_critical_velocity(replace(BALL, material=mdr.Prony(3e6, ((2e6, 1e-3),), 0.4, tau=1e-3)))
     assert "falls like v_0^-3" in str(mdr.verdict(replace(BALL, material=ELASTIC)))
+
+
+def test_a_curve_is_scaled_by_what_vibration_reaches_where_v_c_ends_a_flat_tail():
+    quick = replace(BALL, material=mdr.KelvinVoigt(3e6, 0.4, 0.003 / OMEGA))
+    assert velocity_scale(quick) == quick.unit_velocity < 0.3 * mdr.critical_velocity(quick)
+    assert velocity_scale(BALL) == mdr.critical_velocity(BALL) < BALL.unit_velocity
+    assert velocity_scale(replace(BALL, material=ELASTIC)) == replace(BALL, material=ELASTIC).unit_velocity
 
 
 def test_a_flat_face_keeps_eqs_1_and_15():
