@@ -78,7 +78,7 @@ COMMANDS = {
         "begin:shapes", "the shapes, materials and motions that a file can name, and their keys",
         options="add_options_of_shapes"),
     "case": Command("begin:case", "a commented case file to begin with", options="add_options"),
-    "warm": Command("warm:warm", "compile all that runs need now, once on this machine, so that no run waits for it"),
+    "warm": Command("warm:warm", "compile all that runs without tau_0 need, once on this machine"),
     "completion": Command(
         "completion:completion", "a script that completes commands and options in the shell", options="add_options"),
 }  # fmt: skip

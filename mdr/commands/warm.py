@@ -1,4 +1,4 @@
-"""`mdr warm`: all that runs need is compiled now, so that no later run on this machine waits for it."""
+"""`mdr warm`: what runs of Coulomb's friction need is compiled now, so that none on this machine waits for it."""
 
 from __future__ import annotations
 
@@ -11,5 +11,6 @@ from mdr.friction.warm import compile_all
 def warm(args: argparse.Namespace, _: None) -> int:
     """Compile, with progress, and say that it is done."""
     kinds = compile_all()
-    answer(args, {"kinds": kinds}, f"{kinds} kinds of run are compiled on this machine, until the program is changed")
+    end = "until the program is changed; one with tau_0 still compiles at first"
+    answer(args, {"kinds": kinds}, f"{kinds} kinds of run are compiled on this machine, {end}")
     return Exit.DONE

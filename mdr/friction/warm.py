@@ -1,4 +1,4 @@
-"""Compile ahead all that runs need: small runs of every kind of material and pull, still and shaken."""
+"""Compile ahead what runs of Coulomb's friction need: small ones of every material and pull, still and shaken."""
 
 from __future__ import annotations
 
