@@ -116,7 +116,8 @@ def _context() -> Any:
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["mdr", "validation.cases", "validation.report", "matplotlib.pyplot"])
+    shared = ["mdr.friction.verdict", "validation.cases", "validation.report", "matplotlib.pyplot"]
+    context.set_forkserver_preload(shared)
     return context
 
 
