@@ -111,11 +111,11 @@ def _knows_full_slip_alone(case: SlidingContact) -> bool:
 def velocity_scale(case: SlidingContact) -> float:
     """Velocity [m/s] that a curve is scaled by: v_c in closed form, or Eq. (1) where that is infinite or zero.
 
-    On a curved face with a shear strength it is the less of both, as next to all friction is back long before v_c.
+    Of a rigid pull on a curved face with a shear strength it is the less of both, as friction is back long before v_c.
     """
     v_c, known = critical_velocity(case), resolved(case)
     pace = known.pace if np.isfinite(known.pace) else known.unit_velocity
-    if _knows_full_slip_alone(case):
+    if case.pull.is_rigid and _knows_full_slip_alone(case):
         return min(v_c, pace)
     return v_c if np.isfinite(v_c) and v_c > 0 else pace
 

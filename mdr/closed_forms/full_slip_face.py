@@ -23,6 +23,7 @@ from mdr.normal.normal_force import contact_radius, corners, edge_of
 from mdr.tools.arrays import EXACT, Array
 
 PHASES, PLACES = 1024, 96  #: at which rates are looked at; from the best of these on the greatest is sought
+FINE, MOST_PHASES = 60.0, 2**15  #: of a half-space, steps in a relaxation time and 2 pi of them, and phases at most
 
 
 def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
@@ -49,11 +50,12 @@ def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float
 
 
 def greatest_rate_of_half_space(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
-    """The same of the surface of a half-space of nu = 0, to about 1e-3; infinite on an elastic one."""
+    """The same of the surface of a half-space of nu = 0, to about 2e-3; infinite on an elastic one."""
     from scipy.special import ellipe, ellipk
 
-    phase = np.pi / PHASES * np.arange(2.0 * PHASES)
-    if not case.edge_moves:
+    n = int(np.clip(np.ceil(FINE / max(case.T, EXACT)), 2 * PHASES, MOST_PHASES))
+    phase = 2 * np.pi / n * np.arange(float(n))
+    if not (case.tau_0 and case.edge_moves):
         return float(rest(phase).max())
     if not case.T:
         return float("inf")

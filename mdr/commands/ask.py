@@ -9,7 +9,7 @@ from mdr.case.paths import facts_at
 from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
 from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
-from mdr.friction.find import searched_path
+from mdr.friction.find import OF_RUN, searched_path
 from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
@@ -27,7 +27,7 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
     share = plain_number("-", "a share, such as 99% or 0.99")
     command.add_argument("--share", metavar="share", type=share, help="share of full friction that is wanted: 99%%")
     command.add_argument("--v-c", metavar="velocity", type=velocity, help="critical velocity that is wanted")
-    ends = "range of the search: 0.1um 5um (default: a tenth to ten times the value of the case)"
+    ends = "range of the search: 0.1um 5um (default: a tenth to ten times the value of the case; 0.001v_c 10v_c)"
     command.add_argument("--within", metavar=("low", "high"), nargs=2, help=ends)
 
 
@@ -36,11 +36,18 @@ def find(args: argparse.Namespace, asked: Said) -> int:
     wish = {name: getattr(args, name).on(asked.case) for name in ("v_0", "cof", "v_c") if getattr(args, name)}
     with refusals():
         path = searched_path(asked.case, args.path)
-        unit = facts_at(path).unit
-        within = args.within and tuple(value_in("--within", end, unit) for end in args.within)
+        within = args.within and tuple(_end(end, path, asked.case) for end in args.within)
         found = mdr.find(asked.case, path, **wish, share=args.share, within=within, held=asked.held)
+    unit = facts_at(path).unit
     answer(args, {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit}, str(found), asked.case)
     return Exit.DONE if found.values else Exit.FAILED
+
+
+def _end(text: str, path: str, case: mdr.SlidingContact) -> float:
+    """An end of the range; of velocities over v_c too."""
+    if path == OF_RUN:
+        return velocity(text).on(case)
+    return value_in("--within", text, facts_at(path).unit)
 
 
 def add_options_of_tolerance(command: argparse.ArgumentParser) -> None:

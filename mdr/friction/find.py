@@ -21,7 +21,7 @@ from mdr.case.contact import OF_FACE, SlidingContact, as_given
 from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.friction.cof_curve import friction_at
-from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.friction.free_parameters import allowed, case_of, changed, path_of, value_of
 from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE
@@ -120,6 +120,9 @@ def find(
     at_rest(case)  # warns of what is unlikely
     path = searched_path(case, path)
     held = still_held(held or {}, [path])
+
+    if path == OF_RUN:
+        case = case_of(case, held)
 
     def at(value: float) -> SlidingContact:
         return case if path == OF_RUN else changed(case, path, value, held)

@@ -64,14 +64,15 @@ class Contact:
     def limit(self, pressure: Array) -> Array:
         """The greatest traction along the surface [Pa] in cells of this pressure, (n, n).
 
-        A shear strength acts on the area of contact, of which cells have too much: each side of a cell at the edge of
-        contact takes the part RIM of it away.
+        A shear strength acts on the area of contact, of which cells have too much: each side of a cell at an edge that
+        is free to move takes the part RIM of it away. An edge of the shape is where its cells end.
         """
         if not self.tau_0:
             return self.mu_0 * pressure
-        touches = np.pad(pressure > 0, 1).astype(float)
-        others = touches[2:, 1:-1] + touches[:-2, 1:-1] + touches[1:-1, 2:] + touches[1:-1, :-2]
-        share: Array = touches[1:-1, 1:-1] * (1 - RIM * (4 - others))
+        touches = pressure > 0
+        bound = np.pad(touches | np.isinf(self.shape), 1).astype(float)
+        sides = 4 - bound[2:, 1:-1] - bound[:-2, 1:-1] - bound[1:-1, 2:] - bound[1:-1, :-2]
+        share: Array = touches * (1 - RIM * sides)
         return self.mu_0 * pressure + self.tau_0 * share
 
     def full_slip(self, depth: float, way: float = 1.0) -> Step:

@@ -263,7 +263,7 @@ class FromForce(Indenter):
             )
 
     def _why_no_shape(self) -> str:
-        """What is wrong with the contact at depths eight times as many as those measured; empty for a shape."""
+        """What is wrong with the contact at many depths; empty for a shape."""
         d = self._curve.places
         with np.errstate(all="ignore"):
             # a(d) may fall by 1e-6 of its greatest value: the spline's doing

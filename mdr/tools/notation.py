@@ -46,7 +46,8 @@ UNITS = {
 ZEROS = dict.fromkeys(("degC", "°C", "C"), 273.15)  #: what 0 in a unit is in that of the library, where it is not 0
 #: other words for symbols
 WORDS = {
-    "sec": "s", "seconds": "s", "msec": "ms", "usec": "us", "minutes": "min", "hours": "hr",
+    "sec": "s", "seconds": "s", "msec": "ms", "usec": "us", "minute": "min", "minutes": "min",
+    "hour": "hr", "hours": "hr",
     "micron": "um", "microns": "um", "angstrom": "Å",
 }  # fmt: skip
 #: which of them is shown, with a prefix, in the place of the unit of the library

@@ -68,6 +68,8 @@ def test_where_nothing_moves_the_edge_springs_are_the_half_space():
     v_c = mdr.laws.full_slip_of_half_space(flat)
     assert_allclose(v_c, mdr.full_slip_critical_velocity(flat), rtol=1e-4)  # of the grid of phases
     assert mdr.laws.full_slip_of_half_space(replace(BALL, material=ELASTIC)) == np.inf
+    coulomb = replace(BALL, material=ELASTIC, mu_0=0.3, tau_0=0.0)
+    assert_allclose(mdr.laws.full_slip_of_half_space(coulomb), mdr.critical_velocity(coulomb), rtol=1e-4)
     with pytest.raises(ValueError, match="without a shake, got KelvinVoigt, SpringPull"):
         mdr.laws.full_slip_of_half_space(replace(BALL, pull=BODY))
 
@@ -106,6 +108,8 @@ def test_a_curve_is_scaled_by_what_vibration_reaches_where_v_c_ends_a_flat_tail(
     quick = replace(BALL, material=mdr.KelvinVoigt(3e6, 0.4, 0.003 / OMEGA))
     assert velocity_scale(quick) == quick.unit_velocity < 0.3 * mdr.critical_velocity(quick)
     assert velocity_scale(BALL) == mdr.critical_velocity(BALL) < BALL.unit_velocity
+    pulled = replace(quick, pull=BODY)
+    assert velocity_scale(pulled) == mdr.critical_velocity(pulled)
     assert velocity_scale(replace(BALL, material=ELASTIC)) == replace(BALL, material=ELASTIC).unit_velocity
 
 

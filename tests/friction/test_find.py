@@ -104,6 +104,12 @@ def test_the_velocity_of_a_share(case):
     assert mdr.find(case, "v_0", cof=0.95 * case.mu_0).values == found.values
 
 
+def test_the_velocity_of_a_share_is_that_of_what_is_held():
+    (found,) = mdr.find(CASE, "v_0", share=0.9, held={"frequency": 100.0}).cases
+    assert_allclose(found.omega, 200 * np.pi)
+    assert found == mdr.find(found, "v_0", share=0.9).cases[0]
+
+
 def test_of_the_velocity_there_is_one_wish():
     for wish in ({"v_0": 1e-3, "share": 0.9}, {"v_c": 1e-3}, {"cof": 0.1, "share": 0.9}, {}):
         with pytest.raises(ValueError, match="of v_0 give one wish: cof or share"):

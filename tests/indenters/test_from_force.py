@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from catalogue import THETA, B, R
+from numpy.testing import assert_allclose
 
 import mdr
 
@@ -63,6 +64,29 @@ def test_a_noisy_force_is_smoothed():
     shape = mdr.FromForce(d[keep], noisy[keep], E_STAR, smoothing=noise)
     some = np.array([2e-5, 5e-5, 9e-5])
     assert worst(shape.contact_radius(some), mdr.Sphere(R).contact_radius(some)) < 0.01  # a few tenths of a percent
+
+
+@pytest.mark.parametrize("shape", [mdr.FlatPunch(1e-3), mdr.Sphere(R), mdr.Cone(0.02), mdr.TruncatedCone(0.02, 1e-4)])
+@pytest.mark.parametrize("relative", [1e-4, 1e-2])
+def test_any_tip_is_found_through_noise_that_is_told(shape, relative):
+    d = np.linspace(0, 4e-6, 101)
+    F = np.asarray(shape.force(d, E_STAR))
+    for seed in range(20):
+        noise = relative * F[-1]
+        noisy = F + np.append(0, np.random.default_rng(seed).normal(0, noise, 100))
+        found = mdr.FromForce(d, noisy, E_STAR, smoothing=noise)
+        assert_allclose(found.contact_radius(2e-6), shape.contact_radius(2e-6), rtol=max(3 * relative, 2e-3))
+
+
+def test_forces_that_begin_too_late_or_never_are_no_shape():
+    d = np.linspace(0, 2e-5, 200)
+    F = np.asarray(mdr.Sphere(R).force(np.maximum(d - 4e-6, 0), E_STAR))
+    noisy = F + np.append(0, np.random.default_rng(0).normal(0, 1e-3 * F[-1], 199))
+    with pytest.raises(ValueError, match=r"no force up to d = .*e-06 m: give depths less that of the touch"):
+        mdr.FromForce(d, noisy, E_STAR, smoothing=1e-3 * F[-1])
+    for none in (0 * d, -d):
+        with pytest.raises(ValueError, match="no force is above zero"):
+            mdr.FromForce(d, none, E_STAR, smoothing=1e-5)
 
 
 def test_deeper_than_it_was_measured():

@@ -26,10 +26,10 @@ def lost_at_the_edge(case: SlidingContact, v_0: float, *, half_space: bool = Fal
     For a paraboloid and mu_0 = 0 it is (2/(9 pi²)) (alpha/v)³ of the whole at small alpha, v being
     v_0/((2 tau_0/G*) omega sqrt(R u_z0)).
 
-    A half-space loses less: a strength tau_0 on a disc moves the surface by (4 tau_0/(pi G*)) a E(r/a), whose rate, by
-    (4 tau_0/(pi G*)) a' K(r/a), grows like a logarithm towards the edge, and not like a root. What sticks is a ring of
-    the width 32 a exp(-pi G* v/(2 tau_0 a')) within the edge, in which tau/tau_0 = (2/pi) arcsin sqrt(s) over the
-    share s of the width. It bears half of the strength::
+    Well above v_c of Coulomb's part a half-space loses less: a strength tau_0 on a disc moves the surface by
+    (4 tau_0/(pi G*)) a E(r/a), whose rate, by (4 tau_0/(pi G*)) a' K(r/a), grows like a logarithm towards the edge, and
+    not like a root. What sticks is a ring of the width 32 a exp(-pi G* v/(2 tau_0 a')) within the edge, in which
+    tau/tau_0 = (2/pi) arcsin sqrt(s) over the share s of the width. It bears half of the strength::
 
         loss of F_x = 32 pi tau_0 mean over the period of a² exp(-pi G* v/(2 tau_0 a')) where a' > 0
 
@@ -146,7 +146,7 @@ def full_slip_of_half_space(case: SlidingContact) -> float:
 
     `full_slip_critical_velocity` is that of springs, which it is on a flat face that keeps contact too. On a curved
     viscous one springs say too much: at small amplitudes the half-space slips all over from a fraction of it on, and
-    its velocity knows the depth. Found on a grid, to about 1e-3; exact for nu = 0 [shear_strength].
+    its velocity depends on the depth. Found on a grid, to about 2e-3; exact for nu = 0 [shear_strength].
 
     Parameters
     ----------

@@ -4,10 +4,12 @@ Points without noise are met: ln F, less a power of d that is known of the tip, 
 passed by: F' = 2E* a is a cubic spline in s = √(d/d_n) with coefficients that rise, so that the contact grows whatever
 the noise is. Over s the contact radius of a sphere is next to a straight line, and that of a cone a parabola. The
 coefficients follow by non-negative least squares, on as few pieces as come as near to the points as noise lets them.
+A tip may have a face where it is said to be flat, or where nothing is said and it takes no more pieces.
 """
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,7 +18,9 @@ from mdr.indenters.mapping.splines import spline
 from mdr.tools.arrays import SAME, Array
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
-ZEROS = {"any": 1, "round": 1, "sharp": 2, "flat": 0}  #: how many of the first coefficients of F' a tip makes zero
+#: how many of the first coefficients of F' a tip makes zero; what is tried one after the other
+ZEROS = {"any": (1, 0), "round": (1,), "sharp": (2,), "flat": (0,)}
+SIGMAS = 3.0  #: by which the root mean square of noise may be more than it is on average
 PIECES, DEGREE = 40, 3  #: of F', pieces at most
 
 
@@ -77,25 +81,31 @@ class Near:
 
     def __init__(self, d: Array, F: Array, tip: str, noise: float) -> None:
         from scipy.interpolate import PPoly
-        from scipy.optimize import nnls
 
-        self.d_n, self.F_n, self.power_to = float(d[-1]), float(np.abs(F).max()), 0.0
+        self.d_n, self.F_n, self.power_to = float(d[-1]), float(np.abs(F).max()) or 1.0, 0.0
         self.places = self.d_n * np.concatenate([np.geomspace(1e-9, 1e-3, 32), np.linspace(1e-3, 1, 8 * PIECES)])
-        s = np.sqrt(d / self.d_n)
-        enough = noise * (1 + np.sqrt(2 / d.size))  # the mean square of n values of noise is known to √(2/n) of it
-        for pieces in range(1, max(1, min(PIECES, d.size // 4)) + 1):
-            rises = [_step(pieces, k) for k in range(ZEROS[tip], pieces + DEGREE)]
-            areas = [_area(one) for one in rises]
-            share, norm = nnls(np.column_stack([area(s) for area in areas]), F / self.F_n)
-            miss = float(norm) * self.F_n / np.sqrt(d.size)
-            if miss <= enough:
+        s, best = np.sqrt(d / self.d_n), np.inf
+        enough = noise / self.F_n * (1 + SIGMAS / np.sqrt(2 * d.size))
+        for pieces, zeros in product(range(1, max(1, min(PIECES, d.size // 4)) + 1), ZEROS[tip]):
+            found = _fitted(s, F / self.F_n, pieces, zeros)
+            if found[0] < best:
+                best, share, rises, areas = found
+                first = zeros + int(np.argmax(share > 0))
+            if best <= enough:
                 break
-        few = f"no growing contact comes closer to the forces than {miss:.3g} N on average"
-        self.why = few if miss > enough else ""
         self.over_s, self.area = (
             PPoly(sum(c * one.c for c, one in zip(share, parts, strict=True)), parts[0].x) for parts in (rises, areas)
         )
-        self.power = 1 + (ZEROS[tip] + int(np.argmax(share > 0))) / 2
+        self.power = 1 + first / 2
+        miss, begins = best * self.F_n, max(first - DEGREE, 0) / (self.over_s.x.size - 1)
+        if not share.any():
+            self.why = "no force is above zero"
+        elif best > enough:
+            self.why = f"a growing contact of {PIECES} pieces or less misses the forces by {miss:.3g} N on average"
+        elif begins:
+            self.why = f"there is no force up to d = {self.d_n * begins**2:.3g} m: give depths less that of the touch"
+        else:
+            self.why = ""
 
     def force(self, d: Array) -> Array:
         """F [N] at depths d > 0."""
@@ -104,6 +114,16 @@ class Near:
     def rise(self, d: Array) -> Array:
         """dF/dd [N/m] at depths d > 0."""
         return np.asarray(self.F_n / self.d_n * self.over_s(np.sqrt(d / self.d_n)))
+
+
+def _fitted(s: Array, F: Array, pieces: int, zeros: int) -> tuple[float, Array, list[Any], list[Any]]:
+    """How far a curve of so many pieces misses F (root mean square), shares of its parts, and these as F' and F."""
+    from scipy.optimize import nnls
+
+    rises = [_step(pieces, k) for k in range(zeros, pieces + DEGREE)]
+    areas = [_area(one) for one in rises]
+    share, norm = nnls(np.column_stack([area(s) for area in areas]), F)
+    return float(norm) / np.sqrt(s.size), share, rises, areas
 
 
 def _step(pieces: int, k: int) -> Any:

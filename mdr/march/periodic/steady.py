@@ -30,7 +30,7 @@ from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.solver import OutOfTime
 from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
-from mdr.normal.normal_force import mean_area
+from mdr.normal.normal_force import full_cof
 from mdr.normal.springs import SpringArray, springs_of
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import finite
@@ -116,9 +116,7 @@ class Converged:
     @property
     def full_cof(self) -> float:
         """Mean friction of full slip over the mean normal force [-]: mu_0, and what the shear strength adds."""
-        units, case = self.scaled.units, self.case
-        more = case.tau_0 * mean_area(case) if case.tau_0 else 0.0
-        return case.mu_0 + more / (self.mean_F_z * units.stiffness_z * units.length_z)
+        return full_cof(self.case)
 
     @property
     def load_error(self) -> float:
