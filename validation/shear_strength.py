@@ -385,8 +385,8 @@ def _apart_figure(fig, ax, apart: tuple[Array, Array, Array]):
     stiffness enter through the unit of velocity alone.
     """
     alphas, v, off = apart
-    most = float(np.abs(off).max())
-    image = ax.pcolormesh(alphas, v, off, cmap="RdBu_r", vmin=-most, vmax=most, shading="gouraud")
+    most = np.ceil(20 * np.abs(off).max()) / 20
+    image = ax.contourf(alphas, v, off, levels=np.linspace(-most, most, 41), cmap="RdBu_r")
     ax.contour(alphas, v, off, levels=[-0.1, 0.1], colors="k", linewidths=1)
     fig.colorbar(image, ax=ax, label="shear strength less Coulomb")
     panel(ax, r"amplitude $\Delta u_z/u_{z0}$", r"velocity $v_0/(\mu\kappa\omega u_{z0})$")
