@@ -19,7 +19,7 @@ from mdr.commands.written import add_output, make_folder, write_found
 def add_options(command: argparse.ArgumentParser) -> None:
     """Where to write, and over which velocities."""
     add_output(command, "curve.csv", "curve.png", "curve.svg")
-    add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
+    add_accuracy(command, "bound on the error of the COF that is asked for, as a share of full friction")
     points = whole_number(2)
     command.add_argument("--points", metavar="n", type=points, help=f"how many velocities (default: {POINTS})")
     which = command.add_mutually_exclusive_group()

@@ -23,7 +23,7 @@ def add_options_of_run(command: argparse.ArgumentParser) -> None:
     """The velocity, how accurately, and where to write."""
     add_velocity(command)
     add_output(command, "run.csv", "run.png", "run.svg")
-    add_accuracy(command, "bound on the error of the COF over mu_0 that is asked for")
+    add_accuracy(command, "bound on the error of the COF that is asked for, as a share of full friction")
     meaning = "write a moving picture of the springs over the last period to this file, which ends in .gif"
     command.add_argument("--animate", metavar="springs.gif", type=Path, help=meaning)
     size = whole_number(LEAST_KNOB)

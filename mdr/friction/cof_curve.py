@@ -49,7 +49,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
 
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
-    cof_error: Array  #: bound on its error, and on that of cof_y, estimated of runs; 2 mu_0 of one not settled [-]
+    cof_error: Array  #: bound on its error, and on that of cof_y, estimated of runs; 2 full_cof of one not settled [-]
     settled: NDArray[np.bool_]  #: whether the run settled
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
     v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]

@@ -50,7 +50,7 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z in the last period [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
-    cof_error: float  #: estimated bound on the error of either: grid, step and cycle together, at most 2 mu_0 [-]
+    cof_error: float  #: estimated bound on the error of either: grid, step and cycle together, at most 2 full_cof [-]
     grid_error: float  #: part of the cells: twice what half as many change, or more [-]
     step_error: float  #: part of the time steps: twice what half as many change, or more [-]
     cycle_error: float  #: part of the start: what further periods would change [-]

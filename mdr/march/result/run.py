@@ -46,7 +46,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
 
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
-    cof_error: float  #: bound on the numerical error of both, estimated; 2 mu_0, all there can be, if not settled [-]
+    cof_error: float  #: bound on the numerical error of both, estimated; 2 full_cof, all there can be, if unsettled [-]
     settled: bool  #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
