@@ -1,7 +1,7 @@
 """Faces with a shear strength, |tau| <= tau_0 + mu_0 p, as soft clean faces have it: what is left of v_c.
 
 Tested here: what a flat punch loses, the laws of mdr/closed_forms/laws/strength.py and of full slip
-(mdr/closed_forms/full_slip_face.py) beside runs, whether the critical velocity knows the depth, springs beside the
+(mdr/closed_forms/full_slip_face.py) beside runs, whether the critical velocity depends on the depth, springs beside the
 half-space, on cells and on annuli (half_space/growing.py), and a table of friction of a plastic plate on silicone,
 measured without vibration.
 

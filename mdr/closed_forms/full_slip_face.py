@@ -23,7 +23,7 @@ from mdr.normal.normal_force import contact_radius, corners, edge_of
 from mdr.tools.arrays import EXACT, Array
 
 PHASES, PLACES = 1024, 96  #: at which rates are looked at; from the best of these on the greatest is sought
-FINE, MOST_PHASES = 60.0, 2**15  #: of a half-space, steps in a relaxation time and 2 pi of them, and phases at most
+FINE, MOST_PHASES = 60.0, 2**15  #: of a half-space: phases times omega tau, ten in a relaxation time; phases at most
 
 
 def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float:

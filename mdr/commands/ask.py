@@ -27,7 +27,7 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
     share = plain_number("-", "a share, such as 99% or 0.99")
     command.add_argument("--share", metavar="share", type=share, help="share of full friction that is wanted: 99%%")
     command.add_argument("--v-c", metavar="velocity", type=velocity, help="critical velocity that is wanted")
-    ends = "range of the search: 0.1um 5um (default: a tenth to ten times the value of the case; 0.001v_c 10v_c)"
+    ends = "range of the search: 0.1um 5um (default: 0.1 to 10 times the value of the case; for v_0 0.001v_c 10v_c)"
     command.add_argument("--within", metavar=("low", "high"), nargs=2, help=ends)
 
 

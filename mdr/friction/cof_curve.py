@@ -346,7 +346,7 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
     resolution = Resolution(n_springs, steps_per_period, "full_slip", lump=True, bounded=False)
 
     def quick(one: SlidingContact, v_0: Array) -> Columns:
-        cof = np.array([end.full_cof * end.cof for end in runs(one, v_0.tolist(), resolution)])
+        cof = full_cof(one) * np.array([end.cof for end in runs(one, v_0.tolist(), resolution)])
         return Columns.exact(cof, 0 * cof, 0 * cof)
 
     case = resolved(case)

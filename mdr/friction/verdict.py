@@ -260,7 +260,7 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
     elif found.v_c is None or not reasons:
         reasons.append(found.why)
     if case.tau_0 and case.edge_moves:
-        reasons.append(_knows_more(case))
+        reasons.append(_depends_on(case))
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
 
@@ -273,9 +273,9 @@ def _full_slip(case: SlidingContact) -> float:
         return float("nan")
 
 
-def _knows_more(case: SlidingContact) -> str:
-    """What v_c of a curved viscous face with a shear strength knows, and how far springs are off."""
-    said = "with a shear strength v_c knows the relaxation time, and the depth as the shape has it"
+def _depends_on(case: SlidingContact) -> str:
+    """What v_c of a curved viscous face with a shear strength depends on, and that of a half-space."""
+    said = "with a shear strength v_c depends on the relaxation time, and on the depth as the shape has it"
     try:
         return f"{said}; a half-space slips all over from {full_slip_of_half_space(case):.3g} m/s on"
     except ValueError:

@@ -101,7 +101,7 @@ def test_the_velocity_of_a_share(case):
     assert found.cases == (case,) * len(found.values)
     for v_0 in found.values:
         assert_allclose(mdr.slide(case, v_0).share, 0.95, atol=1e-6)
-    assert mdr.find(case, "v_0", cof=0.95 * case.mu_0).values == found.values
+    assert_allclose(mdr.find(case, "v_0", cof=0.95 * case.mu_0).values, found.values, rtol=1e-6)
 
 
 def test_the_velocity_of_a_share_is_that_of_what_is_held():

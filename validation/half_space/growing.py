@@ -33,7 +33,7 @@ def lost(a: Array, pull: float, T: float = 0.0, n: int = 300) -> float:
     r, area = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges**2)
     moved = np.diff([disc(r, R) for R in edges], axis=0).T  # times G*/tau_0, by a traction of tau_0
     q = np.where(np.arange(r.size) < INNER, 1.0, 0.0)
-    u, left = moved @ q, 0.0
+    u = moved @ q
     for _ in range(2):  # the second period is that of all others, as each begins with full slip
         left = 0.0
         for step, m in zip(steps, touching, strict=True):

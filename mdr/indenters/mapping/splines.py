@@ -33,18 +33,17 @@ RULES = tuple(  #: for arcs between these widths [rad]
 )
 
 
-def spline(x: Array, y: Array, noise: Array | float) -> Any:
-    """A spline through the points, ascending x, of odd degree; for `noise` above 0, their standard deviation (n,) or
-    that of all, one that keeps from them by it on the average.
+def spline(x: Array, y: Array, noise: float) -> Any:
+    """A spline through the points, ascending x, of odd degree; for `noise` above 0, their standard deviation, one that
+    keeps from them by it on the average.
     """
     from scipy.interpolate import BSpline, make_interp_spline, splrep
 
-    k, noise = min(DEGREE, x.size - 1 - x.size % 2), np.broadcast_to(noise, x.shape)
-    if not noise.all() or x.size <= k + 1:
+    k = min(DEGREE, x.size - 1 - x.size % 2)
+    if not noise or x.size <= k + 1:
         return make_interp_spline(x, y, k=k)
-    weights = noise.max() / noise
-    (t, c, k), *_ = splrep(x, y / noise.max(), weights, k=k, s=x.size, full_output=1)  # whoever asks looks at its shape
-    return BSpline(t, c * noise.max(), k)
+    (t, c, k), *_ = splrep(x, y / noise, k=k, s=x.size, full_output=1)  # whoever asks looks at its shape
+    return BSpline(t, c * noise, k)
 
 
 def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array]:

@@ -147,7 +147,7 @@ class Slow:
 
 
 def _share_of_disc(springs: SpringArray, a: float) -> float:
-    """Twice the integral of sqrt(a² - x²) as the springs sum it, over pi a²: a strength has the whole disc."""
+    """Sum of 2 sqrt(a² - x²) over the springs, over its integral pi a²: a strength acts on the whole disc."""
     return float(springs.width @ np.sqrt(np.maximum(a**2 - springs.x**2, 0.0))) * 2 / (np.pi * a**2)
 
 
@@ -189,8 +189,10 @@ class ScaledContact:
         row, rheology, width = Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
         units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
         law, coulomb = law_of(rheology.T, rheology.rho, rheology.theta), case.mu_0 * case.material.mindlin_ratio * unit
-        radius = length_x * springs.G_star * (1 + slow.rho) / (2 * case.tau_0) if case.tau_0 else np.inf
-        radius *= _share_of_disc(springs, float(case.indenter.contact_radius(case.u_z_max))) if case.tau_0 else 1.0
+        radius = np.inf
+        if case.tau_0:
+            share = _share_of_disc(springs, float(case.indenter.contact_radius(case.u_z_max)))
+            radius = share * length_x * springs.G_star * (1 + slow.rho) / (2 * case.tau_0)
         faces = faces_of(case, radius, coulomb / length_x, steps)
         row = row._replace(x2=(springs.x / radius) ** 2 if faces else None)
         body, across = (

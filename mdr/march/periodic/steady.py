@@ -30,7 +30,6 @@ from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.solver import OutOfTime
 from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
-from mdr.normal.normal_force import full_cof
 from mdr.normal.springs import SpringArray, springs_of
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import finite
@@ -112,11 +111,6 @@ class Converged:
     def mean_F_z(self) -> float:
         """Mean of F_z in scaled form."""
         return self.scaled.normal.mean
-
-    @property
-    def full_cof(self) -> float:
-        """Mean friction of full slip over the mean normal force [-]: mu_0, and what the shear strength adds."""
-        return full_cof(self.case)
 
     @property
     def load_error(self) -> float:

@@ -20,6 +20,7 @@ from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
 from mdr.march.periodic.settling import LATE, MIN_PERIODS
 from mdr.march.periodic.steady import Converged, Observed, looked_at, too_coarse
 from mdr.march.periodic.waiting import NO_STEP
+from mdr.normal.normal_force import full_cof
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
 from mdr.tools.arrays import EXACT, Array, beyond
@@ -202,7 +203,7 @@ def finish(end: Converged) -> SlidingRun:
     if march.settling.settled and open_account:
         march = march.contradicted(open_account)
     case, scaled, sums, settling = end.case, end.scaled, march.account.seen.sums, march.settling
-    full = end.full_cof
+    full = full_cof(case)
     force_z = scaled.units.stiffness_z * scaled.units.length_z
     if not march.sees_contact:
         raise too_coarse(scaled.drive.steps)
