@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled
+from mdr.tools.jit import compiled, inner
 
 Complex = NDArray[np.complex128]
 
@@ -23,6 +23,7 @@ MOST_TURNS = 100  #: of Newton's method, for an instant and for the periodic sta
 CLOSE = 1e-7
 
 _jit = compiled(nogil=True, error_model="numpy")
+_inner = inner(error_model="numpy")
 
 
 class Harmonics(NamedTuple):
@@ -57,7 +58,7 @@ _FREE = len(Instant._fields)  # column of a table of instants
 # --- harmonic sums ----------------------------------------------------------------------------------------
 
 
-@_jit
+@_inner
 def root(
     C: Complex, drift: float, level: float, decaying: float, since: float, T: float,
     low: float, high: float, f_low: float, f_high: float,
@@ -93,7 +94,7 @@ def root(
     return t
 
 
-@_jit
+@_inner
 def instant_at(m: Harmonics, v: float, t: float) -> Instant:
     """The motion at phase t, at the velocity v."""
     w = complex(math.cos(t), math.sin(t))
@@ -113,13 +114,13 @@ def instant_at(m: Harmonics, v: float, t: float) -> Instant:
     return Instant(t, z, x, A_T, B_T, sum_z, sum_x + 0.5 * v * t * t)
 
 
-@_jit
+@_inner
 def _get(points: Array, k: int) -> Instant:
     row = points[k]
     return Instant(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
 
 
-@_jit
+@_inner
 def _put(points: Array, k: int, now: Instant) -> None:
     row = points[k]
     row[0], row[1], row[2], row[3], row[4], row[5], row[6] = now
@@ -206,7 +207,7 @@ def _follow(m: Harmonics, v: float, c: float, cuts: Array, points: Array) -> tup
     return n, s_sum, sequence
 
 
-@_jit
+@_inner
 def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> tuple[float, float, float]:
     """Slip from a to b, forward for side = 1, backward for -1: y at its end, integral of e, share of y that is lost."""
     s = b.sum_z - a.sum_z - c * (b.t - a.t)
@@ -216,7 +217,7 @@ def _slip(T: float, c: float, side: float, y: float, a: Instant, b: Instant) -> 
     return side * (b.z - c - lag + lag * lost) - b.X, side * (s - lag * T * lost), lost
 
 
-@_jit
+@_inner
 def _slide(
     m: Harmonics, v: float, c: float, y: float, a: Instant, b: Instant
 ) -> tuple[float, float, float, float, float, int]:
@@ -299,7 +300,7 @@ def _period(
     return y + b.X, e_sum, pressed, lost, more_e, modes
 
 
-@_jit
+@_inner
 def _spring(
     m: Harmonics, v: float, c: float, cuts: Array, points: Array, share: float
 ) -> tuple[float, float, float, int, float]:

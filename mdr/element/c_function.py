@@ -12,7 +12,7 @@ import numpy as np
 from numba import carray, cfunc, float64, int32, intp, njit, types  # type: ignore[attr-defined]
 from numba.extending import intrinsic
 
-from mdr.element.kernels import SpringRow, steps
+from mdr.element.kernels import SpringRow, copied, steps
 from mdr.spring.law import Arms, Law, Modes
 from mdr.tools.arrays import SAME, Array
 
@@ -48,7 +48,7 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float, mark: float) -> Any
     @cfunc(int32(intp, intp, float64, intp, intp, intp))
     def step(state, new_state, dt, u, F, tangent):
         before, to = numbers(state, (1, n_state)), numbers(u, (1, 3))
-        if not (np.isfinite(to).all() and np.isfinite(dt) and to[0, 2] <= deepest):
+        if not (np.isfinite(to[0, 0] + to[0, 1] + to[0, 2] + dt) and to[0, 2] <= deepest):
             return REFUSED
         if not (dt > 0.0 if viscous else dt >= 0.0):
             return REFUSED
@@ -62,10 +62,10 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float, mark: float) -> Any
         stiff = np.empty((1 if tangent != 0 else 0, 3, 3))
         if steps(after, to.copy(), dt if viscous else 1.0, springs, mark, force, stiff) != 0:
             return REFUSED
-        numbers(new_state, (1, n_state))[:] = after
-        numbers(F, (1, 3))[:] = force
+        copied(after, numbers(new_state, (1, n_state)))
+        copied(force, numbers(F, (1, 3)))
         if tangent != 0:
-            numbers(tangent, (1, 3, 3))[:] = stiff
+            copied(stiff[0], numbers(tangent, (3, 3)))
         return GOOD
 
     return step

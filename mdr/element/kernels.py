@@ -73,6 +73,14 @@ def room_for(parts, n):
 
 
 @_inline
+def copied(values, into):
+    """Copy an array (m, n) into another."""
+    for j in range(values.shape[0]):
+        for i in range(values.shape[1]):
+            into[j, i] = values[j, i]
+
+
+@_inline
 def parts_of(n_state, n):
     """Compression or extension, and arms, of one of n springs in a state of so many numbers."""
     return (n_state - N_HEAD - 1) // (3 * n)
@@ -113,7 +121,8 @@ def forces(each, F):
 @_inline
 def moved(s, e, z_0, way, contact, T, modes, arms, tools, room):
     """The springs s, e, which are left as they are, after a straight way (3,) from the depth z_0, in the room."""
-    room.s[:], room.e[:] = s, e
+    copied(s, room.s)
+    copied(e, room.e)
     return straight(room.s, room.e, z_0, complex(way[0], way[1]), way[2], contact, T, modes, arms, tools, room.each)
 
 
@@ -151,8 +160,9 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
     by their error.
     """
     looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room)
-    K[:, j] = 0.0
     even, stiffest = EVEN * abs(d) * (1.0 + T / tools.times.h), glassy(arms) + T / tools.times.h
+    for k in range(3):
+        K[k, j] = 0.0
     for i in range(contact.gap.size):
         w, done, near = contact.w[i], contact.w[i] * bends(room.F, i) <= even, d
         if done:
@@ -161,13 +171,16 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
             continue
         one = SpringRow(contact.gap[i : i + 1], contact.w[i : i + 1], contact.law, *contact[3:])
         own_s, own_e = s[:, i : i + 1].copy(), e[:, i : i + 1].copy()
-        alone.F[0, :, 0] = room.F[0, :, i]
+        for k in range(3):
+            alone.F[0, k, 0] = room.F[0, k, i]
         for look in range(NEARER + FARTHER):
             near = d * 0.1 ** (look + 1) if look < NEARER else d * 10.0 ** (look - NEARER)
             looks_ahead(own_s, own_e, z_0, way, j, near, one, T, modes, arms, tools, alone)
             if look < NEARER:
                 done = w * bends(alone.F, 0) <= even * abs(near / d)
-            change, most = np.abs(alone.F[2] - alone.F[1]).max(), stiffest * abs(near)
+            change, most = 0.0, stiffest * abs(near)
+            for k in range(3):
+                change = max(change, abs(alone.F[2, k, 0] - alone.F[1, k, 0]))
             if done or (look >= NEARER and change <= most):
                 break
         part = min(1.0, most / change) if change > 0.0 else 1.0
@@ -184,24 +197,31 @@ def steps(states, us, h, contact, mark, pull, tangents):
     state or with what comes out.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
-    tools, unit = new_tools(h, modes, arms, 0j), np.array([contact.length_x, contact.length_x, contact.length_z])
-    force = np.array([contact.force_x, contact.force_x, contact.force_z])
+    tools, unit = new_tools(h, modes, arms, 0j), (contact.length_x, contact.length_x, contact.length_z)
+    force = contact.force_x, contact.force_x, contact.force_z
     parts = parts_of(states.shape[1], n)
-    room, alone, K = room_for(parts, n), room_for(parts, 1), np.empty((3, 3))
+    room, alone, K, way = room_for(parts, n), room_for(parts, 1), np.empty((3, 3)), np.empty(3)
+    s, e = np.empty((parts, n)), np.empty((parts, n), np.complex128)
+    new_s, new_e = np.empty_like(s), np.empty_like(e)
     for b in range(us.shape[0]):
-        wrong = fault(states[b], contact, mark)
+        state, finite = states[b], True
+        wrong = fault(state, contact, mark)
         if wrong != 0:
             return wrong
-        springs = states[b, N_HEAD:-1]
-        s, both = springs[: parts * n].reshape(parts, n), springs[parts * n :].reshape(2 * parts, n)
-        e = both[:parts] + 1j * both[parts:]
-        z_0, way = states[b, 2] / unit[2], us[b] / unit - states[b, :3] / unit
+        for j in range(parts):
+            for i in range(n):
+                at = N_HEAD + j * n + i
+                s[j, i], e[j, i] = state[at], complex(state[at + parts * n], state[at + 2 * parts * n])
+        z_0 = state[2] / contact.length_z
+        for k in range(3):
+            way[k] = us[b, k] / unit[k] - state[k] / unit[k]
         of = moved(s, e, z_0, way, contact, T, modes, arms, tools, room)
-        now = np.array([of.end.real, of.end.imag, of.normal_end])
-        new_s, new_e = room.s.copy(), room.e.copy()
+        now, area = (of.end.real, of.end.imag, of.normal_end), (of.area.real, of.area.imag, of.normal_area)
+        copied(room.s, new_s)
+        copied(room.e, new_e)
         if tangents.size > 0:
             forces(room.each, room.F[0])
-            far = np.abs(way).max()
+            far = max(abs(way[0]), abs(way[1]), abs(way[2]))
             d = MOST * max(far, 1.0)
             if far > 0.0:  # at rest springs switch at no distance, or at a finite one
                 d = min(d, max(SHARE * far, LEAST))
@@ -211,14 +231,23 @@ def steps(states, us, h, contact, mark, pull, tangents):
                     side = now[j]
                 d_j = -d if side < 0.0 else d
                 rates(K, j, d_j, s, e, z_0, way, contact, T, modes, arms, tools, room, alone)
-                tangents[b, :, j] = force * K[:, j] / unit[j]
-        area = np.array([of.area.real, of.area.imag, of.normal_area])
-        pull[b], velocity = force * now, (us[b] - states[b, :3]) / h
-        states[b, 3] += (velocity * force * area).sum()
-        states[b, :3], s[:], both[:parts], both[parts:] = us[b], new_s, new_e.real, new_e.imag
-        if not (np.isfinite(states[b]).all() and np.isfinite(pull[b]).all()):
-            return BEYOND
-        if tangents.size > 0 and not np.isfinite(tangents[b]).all():
+                for k in range(3):
+                    tangents[b, k, j] = force[k] * K[k, j] / unit[j]
+                    finite &= np.isfinite(tangents[b, k, j])
+        work = 0.0
+        for k in range(3):
+            pull[b, k] = force[k] * now[k]
+            finite &= np.isfinite(pull[b, k])
+            work += (us[b, k] - state[k]) / h * force[k] * area[k]
+            state[k] = us[b, k]
+        state[3] += work
+        for j in range(parts):
+            for i in range(n):
+                at, one = N_HEAD + j * n + i, new_e[j, i]
+                state[at], state[at + parts * n], state[at + 2 * parts * n] = new_s[j, i], one.real, one.imag
+        for number in state:
+            finite &= np.isfinite(number)
+        if not finite:
             return BEYOND
     return 0
 
@@ -231,7 +260,7 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
     """
     h, low, high, x, wider = tools.times.h, -np.inf, np.inf, z + ahead, WIDER
     for _ in range(MOST_TRIALS):
-        trial[:] = s
+        copied(s, trial)
         rate = (x - z) / h
         of = press(
             trial,
@@ -283,7 +312,8 @@ def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
         if h != tools.times.h:
             tools = tools_of(h, modes, arms, tools)
         if T > 0.0 and load.size == 0 and k > 1:
-            s_near[:], e_near[:] = s, e
+            copied(s, s_near)
+            copied(e, e_near)
             soon, way = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools), SOON * (x[k] - x_0)
             sinks = SOON * (depth[k] - z_0)
             of = straight(s_near, e_near, z, way, sinks, contact, T, modes, arms, soon, None)

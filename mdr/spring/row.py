@@ -25,9 +25,10 @@ from mdr.spring.path import FAST, LENT, OWN, Path
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.jit import compiled, inner
+from mdr.tools.linked import LINKED
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
-_OWN: Any = {"error_model": "numpy", "fastmath": FAST, **OWN}
+_OWN: Any = {"error_model": "numpy", "fastmath": FAST, **OWN, **LINKED}
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
 

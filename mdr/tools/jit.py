@@ -17,6 +17,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 from mdr.tools import sources
 from mdr.tools.compiling import TALLY
+from mdr.tools.linked import LINKED
 from mdr.tools.progress import PATIENCE, Ticker
 
 Function = Callable[..., Any]
@@ -56,11 +57,12 @@ class _Cache(FunctionCache):
         self._cache_file = _Files(self._cache_path, self._impl.filename_base, stamp)
 
 
-def inner(**options: Any) -> Any:
-    """Decorator of a function that compiled ones alone may call; called from Python it ends the process. Its code is
-    kept with those that call it.
-    """
-    return _njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
+def inner(**options: Any) -> Callable[[Function], Function]:
+    """Decorator of a function that compiled ones alone may call. Its code is made and kept with those that call it."""
+    decorator: Callable[[Function], Function] = _njit(
+        no_cpython_wrapper=True, no_cfunc_wrapper=True, **LINKED, **options
+    )
+    return decorator
 
 
 def compiled(**options: Any) -> Callable[[Function], Function]:

@@ -103,6 +103,21 @@ def test_without_a_folder_to_write_to_it_is_compiled_all_the_same(monkeypatch):
     assert double.signatures  # compiled, not left to Python
 
 
+@compiles
+def test_an_inner_function_becomes_machine_code_with_its_callers_alone(monkeypatch):
+    assert jit.LINKED  # what it takes of numba is there
+
+    def compiled_with(options):
+        monkeypatch.setattr(jit, "LINKED", options)
+        half = jit.inner()(lambda x: 0.5 * x)
+        return half, numba.njit(lambda x: half(x) + half(half(x)))(3.0)
+
+    inner, answer = compiled_with(jit.LINKED)
+    assert answer == compiled_with({})[1] == 2.25
+    with pytest.raises(KeyError):
+        inner(3.0)  # Python may not call it
+
+
 def compiling(module):
     return SimpleNamespace(data={"dispatcher": SimpleNamespace(py_func=SimpleNamespace(__module__=module))})
 
