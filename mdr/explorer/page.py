@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from html import escape
 from typing import Any
 from urllib.parse import parse_qsl
 
@@ -13,20 +12,21 @@ import panel as pn
 
 from mdr.case.contact import SlidingContact
 from mdr.explorer import look
+from mdr.explorer.asked import Asked, half_space_of, verdict_of
 from mdr.explorer.board import Board
 from mdr.explorer.curve import Curve, curve_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
 from mdr.explorer.over_period import OverPeriod, forces_legend, springs_legend
-from mdr.explorer.pictures import Picture, pictures_of, verdict_of
+from mdr.explorer.pictures import Picture, pictures_of
 from mdr.explorer.state import State
 from mdr.given.case_file import parse_case
 from mdr.march.periodic.steady import LEAST_ACCURATE
 from mdr.tools.compiling import TALLY
 
 COMPUTING = "computing …"
-COMPILING = "compiling, once on this machine and for half a minute: {} functions so far …"
+COMPILING = "compiling, once on this machine and for a quarter of a minute: {} functions so far …"
 FIRST_SIGHT = "first sight, its error is not bounded yet"
 BOUNDED = f"error of friction ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>, where settled; hollow points are not"
 
@@ -37,12 +37,15 @@ class Page:
     def __init__(self, state: State, refusal: str = "") -> None:
         self.state, self.first, self.document, self.loaded = state, state, pn.state.curdoc, False
         self.waits = False  #: whether more is computed of the state
-        self.alert, self.status, self.numbers, self.said = (look.html() for _ in range(4))
+        self.alert, self.status, self.numbers = (look.html() for _ in range(3))
         self.legends = {name: look.html() for name in ("curve", "springs", "forces")}
         self.curve, self.over_period = Curve(), OverPeriod()
         self.keep, self.board = Keep(self._go), Board(state, self.attempt)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
-        self.verdicts: Latest[SlidingContact, str] = Latest(verdict_of, self._computed(self._say))
+        self.asked = [
+            Asked("Judge the closed form by simulation", "verdict", verdict_of, self._computed),
+            Asked("See the contact on a half-space", "half-space", half_space_of, self._computed),
+        ]
         self.alert.object = look.refused(refusal)
         curve, springs, forces = self.legends.values()
         over = self.over_period
@@ -55,8 +58,6 @@ class Page:
     @property
     def view(self) -> Any:
         """All of it."""
-        judge = pn.widgets.Button(name="Judge the closed form by simulation", button_type="primary", margin=(6, 5))
-        judge.on_click(self._judge)
         given: Any = pn.widgets.FileInput(accept=".toml", margin=5, width=230, css_classes=["upload", "case"])
         given.param.watch(lambda event: self._load(event.new, given.filename or "file"), "value")
         reset = pn.widgets.Button(name="Reset", margin=5)
@@ -68,7 +69,9 @@ class Page:
             look.area("springs", look.heading("The springs over a period"), self.faded["springs"]),
             stylesheets=[look.PICTURES],
         )
-        numbers = look.area("numbers", self.numbers, judge, self.said)
+        numbers = look.area(
+            "numbers", self.numbers, *(part for one in self.asked for part in one.of(lambda: self.state))
+        )
         body = look.column(pictures, self.board.view, numbers, self.keep.view, stylesheets=[look.LAYOUT])
         return look.column(top, self.alert, body, stylesheets=[look.PAGE])
 
@@ -99,10 +102,10 @@ class Page:
     def _take(self, state: State) -> None:
         """Make this the state: the controls stand at it, and its pictures are asked for."""
         self.state = state
-        self.verdicts.drop()
         with pn.io.hold(self.document):  # one message to the browser
             self.board.show(state)
-            self.said.object = ""
+            for one in self.asked:
+                one.drop()
             if self.loaded:
                 self._ask()
 
@@ -165,15 +168,6 @@ class Page:
 
     def _tell(self, status: str) -> None:
         self.status.object = f'<span style="{look.SMALL}" class="status">{status}</span>'
-
-    def _judge(self, _: Any) -> None:
-        self.said.object = "computing the verdict, which takes some seconds …"
-        self.verdicts.ask(self.state.case)
-
-    def _say(self, case: SlidingContact, answer: str | Exception | None) -> None:
-        if answer is not None and case == self.state.case:
-            text = escape(answer) if isinstance(answer, str) else look.refused(look.words_of(answer))
-            self.said.object = f'<div style="font-size:13px;line-height:1.5" class="verdict">{text}</div>'
 
 
 def page_of(case: SlidingContact) -> Any:

@@ -11,14 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.critical_velocity import POINTS, UP_TO, critical_velocity, velocity_scale
 from mdr.closed_forms.full_slip import static_cof
 from mdr.explorer.state import DECADE, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holding_band
-from mdr.friction.verdict import verdict
 from mdr.march.periodic.steady import LEAST_ACCURATE
 from mdr.march.result.run import SlidingRun
 from mdr.march.result.slide import slide
@@ -163,9 +161,3 @@ def velocities_of(state: State) -> Array:
         return np.unique([*(share * forward), *own])
     share[0] = share[1] ** 2  # beside zero, where friction of a shaken contact jumps
     return np.unique([*(-back * share), *(forward * share), *own])
-
-
-def verdict_of(case: SlidingContact, watch: Callable[[], None] = lambda: None) -> Iterator[str]:
-    """The sentence on how good the closed form is for a case."""
-    with silent(watch):
-        yield str(verdict(case))

@@ -16,7 +16,7 @@ import numpy as np
 from mdr.case.contact import KINDS, SlidingContact, as_given
 from mdr.case.paths import GROUPS, SET
 from mdr.closed_forms.critical_velocity import UP_TO, critical_velocity, velocity_scale
-from mdr.files.examples import PARTS, STILL
+from mdr.files.examples import PARTS, STILL, WAVEFORMS
 from mdr.given.vary import case_at, value_at
 from mdr.normal.resolved import at_rest
 from mdr.tools.checks import finite, positive
@@ -83,6 +83,9 @@ class State:
             return state._with(replace(case, **{slot: None}))
         mine = {path.partition(".")[2]: one for path, one in state.kept.items() if path.startswith(f"{slot}.")}
         sizes, others = scales_of(self.case), {}
+        if slot == "oscillation" and name in WAVEFORMS:  # of what moves now
+            known = sizes | now
+            return state._with(replace(case, oscillation=WAVEFORMS[name](known["u_z0"], known["du_z"], known["omega"])))
         if slot == "shake":
             mine["omega"] = sizes["omega"]
         if slot == "oscillation" and not new.omega and case.shake is None:  # else nothing would move

@@ -5,14 +5,16 @@ Every example is a small body of rubber some 20 µm deep, which touches over a d
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields
+from functools import partial
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from mdr import indenters, materials
-from mdr.case import in_plane
+from mdr.case import in_plane, waveforms
 from mdr.case import motion as motions
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.pull import RigidPull, SpringPull
@@ -37,7 +39,17 @@ def _examples(module: ModuleType) -> dict[str, Any]:
 
 SHAPES: dict[str, indenters.Indenter] = _examples(indenters)
 MATERIALS: dict[str, materials.Material] = _examples(materials)
-MOTIONS: dict[str, motions.Motion] = _examples(motions)
+#: of eight harmonics, by mean depth [m], fall below it [m] and angular frequency [rad/s]
+WAVEFORMS: dict[str, Callable[[float, float, float], motions.PeriodicMotion]] = {
+    "Sawtooth": partial(waveforms.sawtooth, n_harmonics=8),
+    "FallingSawtooth": partial(waveforms.sawtooth, n_harmonics=8, falling=True),
+    "Square": partial(waveforms.square, n_harmonics=8),
+    "Pulse": partial(waveforms.pulse, n_harmonics=8, width=0.25),
+}
+_SINE: motions.NormalOscillation = example_of(motions.NormalOscillation)
+MOTIONS: dict[str, motions.Motion] = _examples(motions) | {
+    name: make(_SINE.u_z0, _SINE.du_z, _SINE.omega) for name, make in WAVEFORMS.items()
+}
 PULLS: dict[str, RigidPull | SpringPull] = {"SpringPull": example_of(SpringPull), "RigidPull": RigidPull()}
 SHAKES: dict[str, in_plane.Shake] = _examples(in_plane)
 STILL = "none"  #: the name of no shake
@@ -92,7 +104,7 @@ def _commented(case: SlidingContact, block: str) -> str:
             line = f"{key} = {_written(getattr(record, key))}"
             unit, meaning, *_ = facts_of(known[key])
             comment = f"[{unit}] {meaning}" if unit else meaning
-        lines[i] = f"{line:<44}# {comment}" if comment else line
+        lines[i] = f"{line:<43} # {comment}" if comment else line
     return "\n".join(lines)
 
 

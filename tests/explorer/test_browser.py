@@ -158,6 +158,17 @@ def test_the_verdict_when_asked(browser):
     assert "m/s" in said[0]
 
 
+def test_the_contact_on_a_half_space_when_asked(browser):
+    browser.button("See the contact")
+    assert "pull" in browser.until(lambda: browser.text(".said.half-space"))[0]  # a body is refused
+    browser.inside(named("kind", "pull"), "option[value='RigidPull']").click()
+    browser.until(lambda: browser.state() and "pull" not in browser.state())
+    browser.button("See the contact")
+    said = browser.until(lambda: [line for line in browser.text(".said.half-space") if line.startswith("On ")])
+    assert "cells of a half-space the COF is 0." in said[0]
+    assert len(browser.find(".said.half-space svg")) == 1
+
+
 def test_it_listens_on_this_machine_alone(server):
     """The socket is bound to 127.0.0.1, and a page of another origin gets no connection."""
     address = urlsplit(server[0])

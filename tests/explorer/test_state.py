@@ -22,7 +22,7 @@ from mdr.explorer.links import link_of, meaning_of, python_of, state_of, typed
 from mdr.explorer.pictures import pictures_of
 from mdr.explorer.springs import DIRECTIONS, map_of
 from mdr.explorer.state import State, group_values
-from mdr.files.examples import PARTS, example, example_file
+from mdr.files.examples import PARTS, WAVEFORMS, example, example_file
 from mdr.plots import MODES
 from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
@@ -51,9 +51,13 @@ def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
     for slot in KINDS:
         for kind in PARTS[slot]:
             after = body.changed(slot, kind)
-            assert after.value(slot) == kind
+            assert after.value(slot) == ("PeriodicMotion" if kind in WAVEFORMS else kind)
             if slot == "material" and kind != "ElasticPair":
                 assert after.case.material.nu == body.case.material.nu
+            if kind in WAVEFORMS:  # it falls as far below the same mean
+                depth = after.case.oscillation.u_z(np.linspace(0, after.case.oscillation.period, 2001))
+                sine = body.case.oscillation
+                assert_allclose([depth[:-1].mean(), depth.min()], [sine.u_z0, sine.u_z0 - sine.du_z], rtol=1e-4)
     assert body.changed("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
     heavy = body.changed("oscillation", "LoadOscillation").case
     assert_allclose(mdr.resolved(heavy).working_depth, body.case.working_depth, rtol=0.05)  # two digits of the load
