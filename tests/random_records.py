@@ -97,7 +97,7 @@ def case_in_units(case, *units):
 
 def shape(dice, by):
     one = drawn(dice, example_of(dice.one_of([type(one) for one in SHAPES.values()])), min(by, 100.0))
-    if dice.happens(0.1) and not isinstance(one, mdr.SampledProfile | mdr.FromForce):
+    if dice.happens(0.1) and not isinstance(one, mdr.SampledProfile | mdr.FromForce | mdr.RoughFace):  # themselves sums
         end = one.max_radius if math.isfinite(one.max_radius) else None
         one = mdr.Profile(one.profile_3d, kinks=one.kinks, r_max=end, name=dice.one_of([None, "mine"]))
     return one
