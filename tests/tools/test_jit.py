@@ -1,5 +1,6 @@
 """Compilation: what takes long is said, with how much is done; what is kept on disk is of the sources as they are."""
 
+import gc
 import os
 import shutil
 import subprocess
@@ -137,6 +138,15 @@ def test_a_long_compilation_says_every_ten_seconds_how_much_is_done(module, seco
     lines = capsys.readouterr().err.splitlines()
     assert [int(line.split(": ")[1].split()[0]) for line in lines] == said
     assert all(line.startswith("compiling, once on this machine,") for line in lines)
+
+
+def test_cycles_are_searched_for_again_once_it_is_compiled():
+    undisturbed, seen = jit.Undisturbed(), []
+    for module in ("scipy.x", "mdr.x"):
+        for step in (undisturbed.on_start, undisturbed.on_start, undisturbed.on_end, undisturbed.on_end):
+            step(compiling(module))
+            seen.append(gc.isenabled())
+    assert seen == [True] * 4 + [False] * 3 + [True]
 
 
 def test_who_compiles_on_purpose_has_no_notice():
