@@ -1,6 +1,6 @@
 """Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
 
-What takes long is said on standard error: the first run of a kind on a machine waits for it, 6 to 25 s on one core.
+What takes long is said on standard error: the first run of a kind on a machine waits for it, 5 to 20 s on one core.
 """
 
 # mypy: disallow-untyped-calls=false
@@ -84,7 +84,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
         except RuntimeError:  # "no locator available"
             warnings.warn(
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
-                "own, which takes 6 to 25 s of one core; let NUMBA_CACHE_DIR name a folder that can"
+                "own, which takes 5 to 20 s of one core; let NUMBA_CACHE_DIR name a folder that can"
             )
         return ready
 
