@@ -59,6 +59,7 @@ if TYPE_CHECKING:
     from mdr.friction.find import find
     from mdr.friction.tolerance import tolerance
     from mdr.studies import Quantity, Study, read_study
+    from mdr.studies.many import ManyCofs, slide_many
     from mdr.studies.sweep import sweep
 
 #: modules of the names above that bring numba, which takes half a second to import: they wait until one is asked for
@@ -90,17 +91,18 @@ _LATER = {
     "mdr.friction.tolerance": ("tolerance",),
     "mdr.studies": ("studies", "Quantity", "Study", "read_study"),
     "mdr.studies.sweep": ("sweep",),
+    "mdr.studies.many": ("ManyCofs", "slide_many"),
 }
 
 __all__ = [
-    "CaseFileError", "CofCurve", "ContactElement", "FrictionData", "PlausibilityWarning", "Quantity", "RandomCof",
-    "RigidPull", "SlideRecord", "SlidingContact", "SlidingRun", "Spectrum", "SpringArray", "SpringPull", "State",
-    "Study", "blocked_cof", "cof_curve", "critical_velocity", "displacement_of", "find", "fit",
+    "CaseFileError", "CofCurve", "ContactElement", "FrictionData", "ManyCofs", "PlausibilityWarning", "Quantity",
+    "RandomCof", "RigidPull", "SlideRecord", "SlidingContact", "SlidingRun", "Spectrum", "SpringArray", "SpringPull",
+    "State", "Study", "blocked_cof", "cof_curve", "critical_velocity", "displacement_of", "find", "fit",
     "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "measure_critical_velocity",
     "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof", "read_case", "read_creep",
-    "read_friction_data", "read_moduli", "read_record", "read_relaxation", "read_study", "register", "resolved", "rig",
-    "slide", "slide_record", "static_cof", "static_depth", "static_load", "surface_fields", "sweep", "tangential_loop",
-    "tolerance", "verdict", "waveforms", "write_case",
+    "read_friction_data", "read_moduli", "read_record", "read_relaxation", "read_study", "register", "resolved",
+    "rig", "slide", "slide_many", "slide_record", "static_cof", "static_depth", "static_load", "surface_fields",
+    "sweep", "tangential_loop", "tolerance", "verdict", "waveforms", "write_case",
 ]  # fmt: skip
 __all__ += indenters.__all__  # shapes, materials and motions are listed where they stand
 __all__ += materials.__all__

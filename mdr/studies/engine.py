@@ -147,6 +147,16 @@ class Call:
             raise
 
 
+def points_of(work: Work, what: str) -> Points:
+    """All points of a work, in memory, with progress under this name."""
+    n = work.layout.n_units
+    cut, points = range(0, n, max(1, n // MOST_IN_FLIGHT)), Points.blank(len(work.quantities), n, Status.MISSING)
+    with closing(run(work, cut, range(len(cut)), None)) as finished:
+        for chunk, found in progress(finished, what, "chunks", len(cut)):
+            points[work.layout.points(units_of(cut, chunk))].put(found)
+    return points
+
+
 def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generator[tuple[int, Points], None, None]:
     """Compute chunks in any order, here and by helpers, or by an executor; yields each with its points as it is
     finished.

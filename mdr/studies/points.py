@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import cof_curve
 from mdr.studies.axes import without_addresses
 from mdr.studies.quantities import CurveQuantity
@@ -76,8 +75,8 @@ def compute(work: Work, units: range, ended: Event | None = None) -> Points:
             points = found[n : n + velocities.stop - velocities.start]
             n += points.status.size
             points.put(known)
-            if case is not None and work.velocity_axis is not None:
-                _fill(work, case, np.asarray(work.velocity_axis.values)[velocities], points)
+            if case is not None and work.moves:
+                _fill(work, case, unit, points)
     return found
 
 
@@ -93,14 +92,13 @@ def _known(work: Work, unit: int) -> tuple[SlidingContact | None, Points]:
     return case, known
 
 
-def _fill(work: Work, case: SlidingContact, velocities: Array, points: Points) -> None:
+def _fill(work: Work, case: SlidingContact, unit: int, points: Points) -> None:
     """The quantities that depend on the velocity: of curves at all of them together; if one fails, at each."""
     moving = [(row, one) for row, one in enumerate(work.quantities) if one.per_velocity]
-    assert work.velocity_axis is not None
     if not moving:
         return
     with points.failing():
-        v_0 = velocities_of(case, work.velocity_axis.path, velocities)
+        v_0 = work.v_0_of(unit, case)
         each = [(v_0[j : j + 1], points[j : j + 1]) for j in range(v_0.size)]
         try:
             _fill_curves(work, case, v_0, points)
@@ -124,21 +122,6 @@ def _fill_curves(work: Work, case: SlidingContact, v_0: Array, points: Points) -
         points.values[row] = one.of(case, curve)
     for j in np.flatnonzero(~curve.settled).tolist():
         points[j : j + 1].end(Status.UNSETTLED, curve.why[j] or "the run did not settle")
-
-
-def velocities_of(case: SlidingContact, path: str, values: Array) -> Array:
-    """Pulling velocities [m/s] of an axis "v_0" or "v_0/v_c" for this very case."""
-    if path == "v_0":
-        return values
-    v_c = critical_velocity(case)
-    if not 0 < v_c < np.inf:
-        what = (
-            "zero"
-            if v_c == 0
-            else "infinite, as on an undamped resonance, shaken across, and of curved faces with tau_0"
-        )
-        raise ValueError(f"v_0/v_c: the critical velocity of this case is {what}, so that its multiples say nothing")
-    return values * v_c
 
 
 def reason_of(error: BaseException) -> str:

@@ -19,9 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.given.vary import case_at
 from mdr.studies.axes import Axis
 from mdr.studies.quantities import Quantity
+from mdr.tools.arrays import Array
 
 MARCHED = 8  #: velocities of a unit that is run velocity by velocity: some seconds of work for one of several workers
 #: of a study, and of an axis: with its status and reason a number takes some 20 bytes, and all of them 2 GB of memory
@@ -116,6 +118,27 @@ class Work:
         pulls = next((axis.values for axis in self.axes if axis.path == "pull"), (self.case.pull,))
         n = 1 if self.velocity_axis is None else len(self.velocity_axis)
         return Layout.of(self.axes, n if all(pull.is_rigid for pull in pulls) else MARCHED)
+
+    @property
+    def moves(self) -> bool:
+        """Whether its points have a velocity."""
+        return self.velocity_axis is not None
+
+    def v_0_of(self, unit: int, case: SlidingContact) -> Array:
+        """Pulling velocities [m/s] of a unit, whose case is this."""
+        axis = self.velocity_axis
+        assert axis is not None
+        values = np.asarray(axis.values)[self.layout.velocities(unit)]
+        if axis.path == "v_0":
+            return values
+        v_c = critical_velocity(case)
+        if not 0 < v_c < np.inf:
+            infinite = "infinite, as on an undamped resonance, shaken across, and of curved faces with tau_0"
+            what = "zero" if v_c == 0 else infinite
+            raise ValueError(
+                f"v_0/v_c: the critical velocity of this case is {what}, so that its multiples say nothing"
+            )
+        return values * v_c
 
     def case_of(self, unit: int) -> SlidingContact:
         """The case of a unit; what its records refuse is raised."""
