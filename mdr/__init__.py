@@ -110,13 +110,15 @@ __all__ += _motion.__all__
 __all__ += _in_plane.__all__
 
 
-def __getattr__(name: str) -> Any:
-    for home, names in _LATER.items():
-        if name in names:
-            module = import_module(home)
-            globals()[name] = found = getattr(module, name, module)  # or the module itself
-            return found
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+if not TYPE_CHECKING:  # what is not there, a checker of types says
+
+    def __getattr__(name: str) -> Any:
+        for home, names in _LATER.items():
+            if name in names:
+                module = import_module(home)
+                globals()[name] = found = getattr(module, name, module)  # or the module itself
+                return found
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -1,4 +1,4 @@
-"""Runs small enough for Python alone: `NUMBA_DISABLE_JIT=1 python tests/small_runs.py` prints what they come to."""
+"""Runs small enough for Python alone: `python tests/small_runs.py` prints what they come to."""
 
 import json
 from dataclasses import replace

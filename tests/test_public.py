@@ -196,7 +196,7 @@ assert "matplotlib" not in sys.modules
 
 def test_what_type_checkers_see_is_what_is_imported_later():
     tree = ast.parse((ROOT / "mdr" / "__init__.py").read_text(encoding="utf-8"))
-    (block,) = (one for one in tree.body if isinstance(one, ast.If))
+    block = next(one for one in tree.body if isinstance(one, ast.If))
     seen = {alias.name: f"{one.module}.{alias.name}" for one in block.body for alias in one.names}
     later = {name: f"{home}.{name}" for home, names in mdr._LATER.items() for name in names}
     modules = {"laws": "mdr.closed_forms.laws", "studies": "mdr.studies", "half_space": "mdr.half_space"}

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from mdr.case.acceleration import sampled
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import positive
+from mdr.tools.warned import warn_outside
 
 ORDER = 4  #: of the Butterworth filter
 
@@ -37,6 +38,11 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     TypeError, ValueError
         For NaN, lists of different lengths, uneven instants, a high-pass whose period is longer than the record or
         that is above half of the sampling rate.
+
+    Warns
+    -----
+    PlausibilityWarning
+        Where more of a lies within a decade below the high-pass than above it.
 
     Notes
     -----
@@ -72,7 +78,12 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     n = t.size + int(8.0 / (high_pass * step)) + 1
     x = np.fft.rfftfreq(n, step) / high_pass
     gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
-    u = np.fft.irfft(gain * np.fft.rfft(a - a.mean(), n), n)[: t.size]
+    spectrum = np.fft.rfft(a - a.mean(), n)
+    power, below = np.abs(spectrum) ** 2, (x > 0.1) & (x < 1)  # slower still is drift
+    if power[below].sum() > power[x >= 1].sum():
+        loudest = x[below][np.argmax(power[below])] * high_pass
+        warn_outside(f"most of a lies below the high-pass, at {loudest:.4g} Hz, and is left out: lower high_pass")
+    u = np.fft.irfft(gain * spectrum, n)[: t.size]
     outside = _from_outside(2 * np.pi * high_pass * step * np.arange(t.size))
     return np.asarray(u - outside @ np.linalg.lstsq(outside, u, rcond=None)[0])
 

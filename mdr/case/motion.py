@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -20,7 +20,7 @@ from mdr.case.acceleration import series_of
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
-from mdr.tools.checks import count, finite, finite_array, not_negative
+from mdr.tools.checks import count, finite, finite_array, not_negative, positive
 from mdr.tools.fields import Record, facts
 from mdr.tools.warned import warn_outside
 
@@ -298,7 +298,7 @@ class PeriodicMotion(Motion):
         -----
         PlausibilityWarning
             Where more than 5 % of the mean square of a is left out, harmonics reach half of the sampling rate, or the
-            amplitude of the depth is above 1 cm.
+            amplitude of the depth is above 1 cm, or less than an atom.
 
         Notes
         -----
@@ -322,9 +322,31 @@ class PeriodicMotion(Motion):
         motion = cls(series.omega, u_z0, tuple(swing.real), tuple(-swing.imag))
         return motion._not_wide("is a in m/s², and t in s?")
 
+    def with_amplitude(self, du_z: float) -> PeriodicMotion:
+        """The same waveform, larger or smaller.
+
+        Parameters
+        ----------
+        du_z : float
+            What the depth falls by below its mean [m].
+
+        Returns
+        -------
+        PeriodicMotion
+            The motion about the same mean.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For what is no length above zero.
+        """
+        share = positive("du_z", du_z, "amplitude in m") / self.cycle.du_z
+        cos, sin = (tuple(share * one for one in each) for each in (self.cos, self.sin))
+        return replace(self, cos=cos, sin=sin)
+
     def _not_wide(self, question: str) -> PeriodicMotion:
         """The motion; with a warning where its amplitude is hardly meant."""
-        if self.cycle.du_z > 0.01:  # [m]: hardly meant
+        if not 1e-10 < self.cycle.du_z < 0.01:  # [m]: less than an atom, or hardly meant
             warn_outside(f"the amplitude of the depth is {self.cycle.du_z:.3g} m: {question}")
         return self
 

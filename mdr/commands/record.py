@@ -26,7 +26,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """The motion, and where to write."""
     what = "columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, a_y, a_z"
     command.add_argument("motion", metavar="motion.csv", type=path_of, help=f"motion of the indenter: {what}")
-    case = "the case file: shape, material and mu_0 count; - is standard input"
+    case = "the case file: shape, material, mu_0 and mean depth count, and no [pull]; - is standard input"
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
     frequency = read_as("a frequency such as 5Hz", lambda text: positive("", value_in("", text, "Hz")))
@@ -48,7 +48,8 @@ def record(args: argparse.Namespace, _: None) -> int:
     make_folder(args)
     recorded = read_file(mdr.read_record, args.motion, args)
     try:
-        motion = with_displacements(recorded, args.high_pass, case, args.v_0 and args.v_0.on(case))
+        rigid = replace(case, pull=mdr.RigidPull())  # the record is the way of the indenter itself
+        motion = with_displacements(recorded, args.high_pass, case, args.v_0 and args.v_0.on(rigid))
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {fault}") from None
@@ -58,8 +59,9 @@ def record(args: argparse.Namespace, _: None) -> int:
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
     whole, kept = (float(t[-1] - t[0]) for t in (recorded["t"], found.t))
     values["left_out"] = whole - kept
+    pull = "" if case.pull.is_rigid else "\nwithout [pull]: a record is the way of the indenter itself, held rigidly"
     ends = f"\nleft out: {whole - kept:.4g} of {whole:.4g} s, both ends, where the high-pass makes displacements "
-    return answer(args, values, f"{found}{ends + 'uncertain' if kept < whole else ''}", case)
+    return answer(args, values, f"{found}{pull}{ends + 'uncertain' if kept < whole else ''}", case)
 
 
 def with_displacements(
@@ -82,6 +84,8 @@ def with_displacements(
         motion[u] = mdr.displacement_of(motion["t"], motion.pop(a), high_pass=high_pass)
         if axis == "z":
             motion[u] += mdr.resolved(case).working_depth
+    if not motion.keys() & {"u_z", "F_z"}:
+        raise ValueError("the header names no depth: one of a_z [m/s2], u_z [um] or F_z [N] tells how it is pressed")
     if v_0 is not None:
         motion["u_x"] = motion.get("u_x", 0.0) + v_0 * (motion["t"] - motion["t"][0])
     if "u_x" not in motion:

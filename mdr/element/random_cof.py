@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,6 +27,9 @@ from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 SPRINGS = 64  #: where none are asked for
 SAMPLES = 32  #: of the shortest period
@@ -75,7 +78,7 @@ class RandomCof(Summarised, Tabled, ArrayRecord):
         names = {"v_0": "m/s", "cof": "-", "standard_error": "-", "cof_error": "-"}
         return csv_text({f"{name} [{unit}]": getattr(self, name) for name, unit in names.items()})
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw friction with two standard errors over the velocity.
 
         Parameters

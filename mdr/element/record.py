@@ -85,9 +85,13 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
         return Summary(
             f"SlideRecord of {self.t.size} samples, {number(self.t[-1] - self.t[0], 's')}",
             [
-                ("COF", with_error(self.cof, self.cof_error), f"mean F_x/mean F_z; mu_0 = {number(self.mu_0)}"),
+                (
+                    "COF",
+                    with_error(self.cof, self.cof_error),
+                    f"mean F_x/mean F_z, with the way from rest; mu_0 = {number(self.mu_0)}",
+                ),
                 ("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z"),
-                ("COF, late", number(self.late_cof), "of the second half of the record, which began at rest"),
+                ("COF, late", number(self.late_cof), "of the second half of the record alone"),
                 ("depth", span(self.u_z, "m"), ""),
                 ("F_x", span(self.F_x, "N"), ""),
                 ("F_y", span(self.F_y, "N"), ""),

@@ -25,6 +25,7 @@ RISE = 0.3  #: share of the force up to which touch and baseline are looked for
 ON_IT = 1e-3  #: part of a step of depth within which a reading is that of the touch
 POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat one to a cone
 FLAT = 5  #: points before the touch that make a baseline
+TOLD_FROM = 10  #: the same, from which their noise is known
 LEAST = 2  #: the same of a curve whose readings are no depths
 FORCE = (
     Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.1)),
@@ -42,6 +43,8 @@ def force_points(
     baseline = None if baseline is None else finite("baseline", baseline, "force before the touch in N")
     table = read_table(path, FORCE, reading)
     d, F = _one_way(table, part)
+    if d.size > 2 * TOLD_FROM and np.sum(np.diff(F) ** 2) > np.sum((F - F.mean()) ** 2):  # of noise alone it is twice
+        raise table.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
     # the point (0, 0) is added to a depth that is at most three of the widest steps away
     are_depths = d.size < 2 or 0 <= d[0] <= 3.0 * float(np.diff(d).max())
     found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST else None
@@ -51,6 +54,8 @@ def force_points(
     elif touch is not None and baseline is None and np.any(d < touch):
         baseline = float(F[d < touch].mean())
         warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
+    if touch is not None:
+        _doubt(table, F - (baseline or 0.0), d, touch)
     F = F - (baseline or 0.0)
     if np.all(F <= 0):
         raise table.fault("no force is above zero; compression must be positive, turn the sign of F")
@@ -66,6 +71,27 @@ def force_points(
     if d.size and d[0] > 0:
         d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)
     return d, F
+
+
+def _doubt(table: Table, F: Array, d: Array, touch: float) -> None:
+    """Warn of a baseline that drifts, and of adhesion."""
+    before, most = F[d < touch], float(F.max())
+    if before.size < TOLD_FROM:
+        return
+    noise = 1.05 * float(np.median(np.abs(np.diff(before))))  # the standard deviation, of normal noise
+    if -F.min() > max(8 * noise, 0.01 * most):
+        warn_outside(
+            f"{table.source}: forces down to {F.min():.2g} N pull: of an adhesive contact, which this library does not "
+            "know, the shape comes out wrong"
+        )
+        return
+    x = np.linspace(-0.5, 0.5, before.size)
+    drift = float(12 * np.mean(x * before))  # of a straight line, from end to end
+    if abs(drift) > max(6 * noise * np.sqrt(12 / before.size), 0.01 * most):
+        warn_outside(
+            f"{table.source}: the force drifts by {drift:.2g} N before the touch, which shifts what is found of it: "
+            "take the straight line off the forces, and give touch= and baseline=0"
+        )
 
 
 def _one_way(table: Table, part: str) -> tuple[Array, Array]:

@@ -8,7 +8,9 @@ lacks, `columns` what it calls a column, or its number. Force over depth is read
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from os import PathLike, fsdecode
 from typing import Any, NamedTuple
 
@@ -269,12 +271,23 @@ def read_record(
     if not record.keys() - {"t"}:
         raise table.lacks("a time alone", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]", "a_x", "a_y", "a_z")
     if step is not None:
+        own = _own_step(path, Reading(units, columns, skip))
+        if abs(own - step) > 0.01 * step:
+            warn_outside(f"{table.source}: its times step by {own:.4g} s, rate by {step:.4g} s: the rate is taken")
         record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}
     elif np.any(falls := np.diff(record["t"]) < 0):
         raise table.fault(f"t falls in line {table.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
     record["t"] = _evened(record["t"], table.source)
     _doubt_units(record)
     return record
+
+
+def _own_step(path: str | PathLike[str], reading: Reading) -> float:
+    """Step [s] of the times that a file has, NaN where it has none that can be read."""
+    with suppress(ValueError, OSError), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return float(np.median(np.diff(read_table(path, (TIME,), reading).values["t"])))
+    return math.nan
 
 
 def _evened(t: Array, source: str) -> Array:

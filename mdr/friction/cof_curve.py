@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +36,9 @@ from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 
@@ -86,7 +89,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
             ],
         )
 
-    def plot(self, ax: Any = None, *, absolute: bool = False) -> Any:
+    def plot(self, ax: Axes | None = None, *, absolute: bool = False) -> Axes:
         """Draw cof/mu_0 over v_0/v_c, or both as they are; with a shear strength the share of full slip for cof/mu_0.
 
         Parameters

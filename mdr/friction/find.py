@@ -302,6 +302,7 @@ class _Search:
             shown(self._accurate(end(self.found, key=self.found.__getitem__)), wish.unit) for end in (min, max)
         )
         between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
-        gaps = "" if self.is_flat else "; `within` may be widened"
+        limit = ", unless this is the limit as v_0 -> 0" if path == "v_0" else ""
+        gaps = "" if self.is_flat else f"; `within` may be widened{limit}"
         gaps += f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
         return f"none: {wish.what} {between} for {path} {where}, and {shown(wish.wanted, wish.unit)} is asked for{gaps}"

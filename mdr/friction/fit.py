@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +29,9 @@ from mdr.tools.messages import short
 from mdr.tools.progress import Ticker
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
@@ -56,7 +59,7 @@ class Fit(Printed, ArrayRecord):
         least, most = 1.05 * min(float(self.data.v_0.min()), 0.0), 1.05 * max(float(self.data.v_0.max()), 0.0)
         return cof_curve(self.case, np.linspace(least, most, 60))
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the data with their errors, the fitted curve, and what is left below.
 
         Parameters

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
 from mdr.case.paths import facts_at, fields_set
@@ -26,6 +26,9 @@ from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import progress
 from mdr.tools.summary import Summarised, Summary
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Pair = tuple[float, float]  #: at the smaller and at the larger value of an input
 
@@ -51,7 +54,7 @@ class Tolerance(Summarised, Tabled):
         title = f"Tolerance: each input {100 * self.by:.3g} % less and more, at v_0 = {shown(self.v_0, 'm/s')}"
         return Summary(title, [*rows, *(("warning", one, "") for one in self.warnings)])
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw a tornado chart: a bar for each input, from friction at its smaller to that at its larger value.
 
         Parameters

@@ -1,9 +1,10 @@
 """A case with other values at some of its paths (`mdr.case.paths`): fields first, then what sets them, in order.
 
-alpha = du_z/u_z0 sets oscillation.du_z, chi = du_x/(mu_0 kappa u_z0) shake.du_x, eta = du_y/(mu_0 kappa u_z0)
-shake.du_y, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega = sqrt(k_x/m)/omega pull.m. Of what a rig
-is set to, load [N] sets F_z0, or of a prescribed depth u_z0, at which this load rests, or beside hold = "load" about
-which it is the mean load; frequency [Hz] sets omega of all that moves; and tan_delta = omega tau sets material.tau.
+alpha = du_z/u_z0 sets oscillation.du_z, or the amplitudes of a series together, chi = du_x/(mu_0 kappa u_z0)
+shake.du_x, eta = du_y/(mu_0 kappa u_z0) shake.du_y, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega
+= sqrt(k_x/m)/omega pull.m. Of what a rig is set to, load [N] sets F_z0, or of a prescribed depth u_z0, at which this
+load rests, or beside hold = "load" about which it is the mean load; frequency [Hz] sets omega of all that moves; and
+tan_delta = omega tau sets material.tau.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
 refers to is solved for under a load, which is why this stands above the normal problem.
@@ -19,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
-from mdr.case.motion import Motion
+from mdr.case.motion import Motion, PeriodicMotion
 from mdr.case.paths import HOLD, RIG, SET, fields_set, hold_of
 from mdr.given.mean_load import under_mean_load, warn_of_mean_loads
 from mdr.materials import KelvinVoigt
@@ -98,7 +99,13 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
             changes["oscillation"]["u_z0"] = rest
             if hold == "load":
                 return _under_mean_load(parts, settings, changed("oscillation"), load, rest)
-    if "alpha" in settings:
+    if "alpha" in settings and isinstance(parts["oscillation"], PeriodicMotion):
+        wave = changed("oscillation")
+        if settings["alpha"] * wave.u_z0 <= 0:
+            raise ValueError(f"alpha must be positive about a depth above zero, got {settings['alpha']!r}")
+        wave = wave.with_amplitude(settings["alpha"] * wave.u_z0)
+        changes["oscillation"] |= {"cos": wave.cos, "sin": wave.sin}
+    elif "alpha" in settings:
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
@@ -120,7 +127,8 @@ def _under_mean_load(
         return contact_of(parts, {**others, "oscillation.u_z0": u_z0})
 
     swing = motion.cycle.unit * motion.cycle.greatest
-    least = rest / (1 + max(settings["alpha"], 0.0)) if "alpha" in settings else rest - swing
+    rises = swing / motion.cycle.du_z  # by how much it rises above its mean, over what it falls below
+    least = rest / (1 + rises * max(settings["alpha"], 0.0)) if "alpha" in settings else rest - swing
     return under_mean_load(at, load, least, rest)
 
 

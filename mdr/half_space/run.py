@@ -33,6 +33,7 @@ from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span, with_error
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 PERIODS = 60  #: at most, unless they are given
@@ -158,7 +159,7 @@ class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
             ],
         )
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw cof over v_0 with its error bars, and cof_y where something moves across.
 
         Parameters

@@ -82,7 +82,7 @@ def warn_of_misfit(
         return
     if twice(omega, modulus).size:
         way_out = "frequencies repeat with other moduli: give one temperature, mdr.read_moduli(path, temperature=20)"
-    elif (n_arms or omega.size // 2) < usual:
+    elif (n_arms or omega.size // 2) < usual and _misfit_with(usual, omega, modulus) < missed[k] / 2:
         way_out = f"n_arms={usual} may come nearer"
     else:
         way_out = "no passive body of one temperature has such moduli: is a unit wrong, or a column another quantity?"
@@ -90,6 +90,13 @@ def warn_of_misfit(
         f"the body misses the moduli by {missed[k]:.0%} at {omega[k]:.4g} rad/s ({omega[k] / (2 * np.pi):.4g} Hz), and "
         f"by more than {TOLD:.0%} hardly for noise: {way_out}"
     )
+
+
+def _misfit_with(n_arms: int, omega: Array, modulus: Any) -> float:
+    """Greatest relative deviation of so many arms, spread over the frequencies."""
+    times = 1 / np.geomspace(omega.min(), omega.max(), n_arms)
+    E_inf, moduli = _moduli(omega, modulus, times)
+    return float(np.max(np.abs(E_inf + arm(np.outer(omega, times)) @ moduli - modulus) / np.abs(modulus)))
 
 
 def twice(omega: Array, modulus: Any) -> Array:

@@ -40,7 +40,7 @@ def plot_slide_record(found: Any) -> Figure:
     return fig
 
 
-def plot_random_cof(found: Any, ax: Any = None) -> Any:
+def plot_random_cof(found: Any, ax: Axes | None = None) -> Axes:
     """Draw friction of a RandomCof with two standard errors over the velocity."""
     factor, symbol = prefix(found.v_0, "m/s")
     with style():

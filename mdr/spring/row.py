@@ -14,8 +14,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba.core.types import Complex, NoneType
-from numba.extending import overload
 
 from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
@@ -24,6 +22,7 @@ from mdr.spring.motion import hold
 from mdr.spring.path import FAST, LENT, OWN, Path
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
+from mdr.tools.compiler import Complex, NoneType, overload
 from mdr.tools.jit import compiled, inner
 from mdr.tools.linked import LINKED
 

@@ -75,7 +75,7 @@ def new_tools(h, modes, arms, zero):
     """Tools of a step of length h, for extensions of the type of `zero`."""
     times = times_of(h, modes, arms)
     J, K = times.arms.shape[2], times.decay.shape[1]
-    of_modes = np.empty(K)
+    of_modes = np.zeros(K)
     vectors = of_modes * zero
     return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty((1 + J, 1))))
 

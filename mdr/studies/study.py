@@ -32,6 +32,7 @@ from mdr.tools.status import Status
 from mdr.tools.summary import Printed
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
@@ -214,7 +215,7 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
 
         return plot(self, quantity, levels)
 
-    def plot_map(self, quantity: str, x: str | None = None, ax: Any = None, **knobs: Any) -> Any:
+    def plot_map(self, quantity: str, x: str | None = None, ax: Axes | None = None, **knobs: Any) -> Axes:
         """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`.
 
         Parameters
@@ -237,7 +238,7 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
 
         return plot_map(self, quantity, x, ax, **knobs)
 
-    def plot_curves(self, quantity: str, x: str | None = None, ax: Any = None) -> Any:
+    def plot_curves(self, quantity: str, x: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw a family of curves; see `mdr.plots.studies.plot_curves`.
 
         Parameters

@@ -12,11 +12,8 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
-from numba import njit
-from numba.core import event
-from numba.core.caching import FunctionCache, IndexDataCacheFile
-
 from mdr.tools import sources
+from mdr.tools.compiler import FunctionCache, IndexDataCacheFile, event, njit
 from mdr.tools.compiling import TALLY
 from mdr.tools.linked import LINKED
 from mdr.tools.progress import PATIENCE, Ticker

@@ -47,7 +47,7 @@ ZEROS = dict.fromkeys(("degC", "°C", "C"), 273.15)  #: what 0 in a unit is in t
 #: other words for symbols
 WORDS = {
     "sec": "s", "seconds": "s", "msec": "ms", "usec": "us", "minute": "min", "minutes": "min",
-    "hour": "hr", "hours": "hr",
+    "hour": "hr", "hours": "hr", "h": "hr",
     "micron": "um", "microns": "um", "angstrom": "Å",
 }  # fmt: skip
 #: which of them is shown, with a prefix, in the place of the unit of the library

@@ -1,6 +1,7 @@
 """Accelerations integrated above a high-pass: a burst, the filter of scipy, a tone with drift."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 from scipy import signal
 
@@ -23,6 +24,14 @@ def test_a_burst_is_integrated():
         off = np.abs(mdr.displacement_of(t, a + 9.81, high_pass=high_pass) - u).max() / 2e-6
         assert (high_pass / 100) ** 8 / 2 < off + 1e-9
         assert off < 2 * (high_pass / 100) ** 8 + 1e-9
+
+
+def test_a_vibration_below_the_high_pass_is_told():
+    t = np.arange(4001) * 5e-4
+    tone = np.sin(2 * np.pi * 80 * t)
+    mdr.displacement_of(t, tone + 3.0 * t, high_pass=20.0)  # what drifts is meant to go, in silence
+    with pytest.warns(mdr.PlausibilityWarning, match=r"at [78][90].* Hz, and is left out: lower high_pass"):
+        mdr.displacement_of(t, tone, high_pass=150.0)
 
 
 def test_the_filter_is_butterworth_run_both_ways():

@@ -220,6 +220,16 @@ def test_the_pull_that_no_accelerometer_shows_is_given(tmp_path, capsys):
     printed, inner = json.loads(capsys.readouterr().out), slice(800, 3201)
     found = mdr.slide_record(BALL, ELASTIC, MU_0, t[inner], 0.01 * t[inner], u_z=20e-6 + z[inner], n_springs=64)
     assert_allclose(printed["cof"], found.cof, rtol=1e-5)  # (5/80)^8 of the high-pass, and its ends
+    # the indenter moves as recorded: a body counts for nothing, not for v_c either, and this is said
+    body = tmp_path / "body.toml"
+    body.write_text((tmp_path / "case.toml").read_text() + "\n[pull]\nk_x = 2e3\nm = 0.01\nc_x = 1.0\n")
+    assert main([*line, "--v-0", "0.5v_c", "--json"]) == 0
+    rigid = json.loads(capsys.readouterr().out)["cof"]
+    onto = [str(body) if one.endswith("case.toml") else one for one in line]
+    assert main([*onto, "--v-0", "0.5v_c", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["cof"] == rigid
+    assert main([*onto, "--v-0", "0.5v_c"]) == 0
+    assert "without [pull]: a record is the way of the indenter itself" in capsys.readouterr().out
     (tmp_path / "motion.csv").write_text("t [s], u_x [um], u_z [um]\n0, 0, 20\n1, 1, 20\n")
     assert main([*line[:3], "--v-0", "10mm/s"]) == 2
     assert "u_x, which is the whole way along the pull: leave --v-0 out" in capsys.readouterr().err
@@ -279,7 +289,7 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
         ("t [s], a_x [g], u_x [um], u_z [um]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_x and u_x: leave one out"),
         ("t [s], u_x [um], a_z [g], F_z [N]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_z and F_z: leave one out"),
         ("t [s], a_z [g]\n" + "".join(f"{k}, 1\n" for k in range(9)), "names no u_x"),
-        ("t [s], u_x [um]\n0, 1\n1, 2\n", "either u_z"),
+        ("t [s], u_x [um]\n0, 1\n1, 2\n", "names no depth"),
         ("t [s], u_x, u_z [um]\n0, 1, 1\n", "u_x needs a unit"),
         ("t [s], u_z [um]\n0, 1\n", "names no u_x"),
         ("t [s], u_x [um], F_z [N]\n0, 1, 1\n0, 2, 1\n", "t must rise"),

@@ -1,5 +1,7 @@
 """Force curves: approach and retract, touch and baseline, of a known ball and cone."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -50,6 +52,24 @@ def test_a_ball_comes_back_within_the_noise(tmp_path):
     d = np.linspace(0.2, 0.9, 8) * DEPTH
     assert_allclose(shape.force(d, E_STAR), BALL.force(d, E_STAR), atol=3 * 0.005 * greatest)
     assert_allclose(shape.contact_radius(0.5 * DEPTH), BALL.contact_radius(0.5 * DEPTH), rtol=0.03)
+
+
+def test_what_a_baseline_tells_of_a_curve_is_said(tmp_path):
+    """Air alone is refused; a drift and a pull are told; a sound curve is silent but for what is found."""
+    z, F, greatest = curve(BALL, noise=0.005)
+    drifts, pulls = F + 0.2 * greatest * z / z[-1], np.where(abs(z - 0.8 * TOUCH) < 10e-9, F - 0.3 * greatest, F)
+    for forces, words in (
+        (F, None),
+        (drifts, "the force drifts by .* shifts"),
+        (pulls, "pull: of an adhesive contact"),
+    ):
+        with pytest.warns(mdr.PlausibilityWarning) as told:
+            read(written(tmp_path / "data.csv", z, forces), tip="round", smoothing=0.03 * greatest)
+        said = [str(one.message) for one in told if "taken, as found" not in str(one.message)]
+        assert [bool(re.search(words, one)) for one in said] == [True] if words else said == []
+    air = greatest * (0.05 + 0.005 * np.random.default_rng(3).normal(size=z.size))
+    with pytest.raises(ValueError, match="nothing is touched"):
+        read(written(tmp_path / "data.csv", z - DEPTH, air), tip="round", smoothing=0.01 * greatest)
 
 
 def test_touch_and_baseline_that_are_given_are_taken(tmp_path):

@@ -1,5 +1,7 @@
 """Files as instruments, loggers and spreadsheets write them, with made-up rows: at first try, or as a refusal says."""
 
+import warnings
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -259,6 +261,19 @@ def test_a_table_is_the_same_in_every_dialect(tmp_path, seed):
     assert found.keys() == {"t", "u_x", "a_z"}
     for k, name in enumerate(("t", "u_x", "a_z")):
         assert_allclose(found[name], scales[k] * np.array([float(f"{row[k]:.6e}") for row in numbers]), rtol=1e-12)
+
+
+def test_a_rate_beside_times_that_say_another_is_told(tmp_path):
+    """A date and a clock, which are no times in seconds, are passed over in silence."""
+    for head, stamp, told in (("Time (s)", "{:.4f}", True), ("Stamp", "2024-05-01 12:00:{:06.3f}", False)):
+        rows = "".join(f"{stamp.format(0.0005 * k)};{k % 3}\n" for k in range(9))
+        path = written(tmp_path, f"{head};Acc Z (g)\n{rows}")
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            record = mdr.read_record(path, rate=1000.0)
+        assert_allclose(np.diff(record["t"]), 1e-3)
+        words = "step by 0.0005 s, rate by 0.001 s: the rate is taken"
+        assert [words in str(one.message) for one in said] == [True] * told
 
 
 def test_a_refusal_shows_the_lines_all_faults_and_what_to_give(tmp_path):

@@ -43,6 +43,21 @@ def eq_15_roots(v_c):
     return sorted(BODY.pull.m * OMEGA**2 - BODY.k_xc / (1 + sign * size) for sign in (-1, 1))
 
 
+def test_the_amplitude_of_a_waveform_is_found():
+    """alpha sets the amplitudes of a series together: the waveform stays, and so does its mean."""
+    wave = mdr.waveforms.sawtooth(20e-6, 2e-6, 300.0, n_harmonics=4)
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, wave)
+    found = mdr.find(case, "alpha", cof=0.33, v_0=1e-4)
+    (case,), (alpha,) = found.cases, found.values
+    larger = case.oscillation
+    assert_allclose(mdr.cof_curve(case, [1e-4]).cof, 0.33, rtol=1e-4)
+    assert_allclose(larger.cycle.du_z, alpha * 20e-6, rtol=1e-9)
+    assert_allclose(np.array(larger.sin) / larger.sin[0], np.array(wave.sin) / wave.sin[0], rtol=1e-12)
+    assert larger.u_z0 == wave.u_z0
+    with pytest.raises(ValueError, match="alpha must be positive about a depth above zero"):
+        case_at(case, {"alpha": -0.1})
+
+
 @pytest.mark.parametrize("share", [0.5, 1e-2, 1e-4])
 def test_two_stiffnesses_have_one_critical_velocity_however_near_they_are(share):
     """Between them v_c falls to zero: a thousandth of their value apart, they lie between two points of the scan."""

@@ -16,12 +16,15 @@ from mdr.march.dynamics.body_step import SHORTEST_PART
 
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
-def test_small_runs_come_to_the_same_in_python():
+def test_small_runs_come_to_the_same_in_python_where_numba_is_missing(tmp_path):
     """Compiled code does not look whether an index is in range, and Python does."""
+    (tmp_path / "numba.py").write_text('raise ImportError("no numba here")')
+    path = os.pathsep.join([str(tmp_path), *filter(None, [os.environ.get("PYTHONPATH")])])
     command = [sys.executable, str(Path(small_runs.__file__))]
     plain = subprocess.run(
-        command, env={**os.environ, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True, check=True, timeout=600
+        command, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, check=True, timeout=600
     )
+    assert "numba cannot be imported (no numba here): runs go on in Python" in plain.stderr
     expected, got = json.loads(plain.stdout), small_runs.results()
     assert expected.keys() == got.keys()
     for name, numbers in got.items():

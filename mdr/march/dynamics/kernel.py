@@ -13,10 +13,6 @@ from functools import cached_property, lru_cache
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numba import types
-from numba.core.types import NoneType
-from numba.experimental import function_type  # noqa: F401, teaches numba what a WrapperAddressProtocol is
-from numba.extending import overload, register_jitable
 
 from mdr.march.dynamics.body import Body
 from mdr.march.dynamics.loop import FullSlipForce, Motion, Trace, march
@@ -26,6 +22,7 @@ from mdr.spring.law import Arms, Law, Modes
 from mdr.spring.path import FAST
 from mdr.spring.times import new_tools
 from mdr.tools.arrays import Array
+from mdr.tools.compiler import NoneType, overload, register_jitable, tell_if_missing, types
 from mdr.tools.jit import compiled
 
 _ROW, _ROWS = types.float64[::1], types.float64[:, ::1]
@@ -185,6 +182,7 @@ def trace_of(flat, n_steps, plane):
 @lru_cache
 def kernel_of(kind: Kind) -> Kernel:
     """The kernel of a kind."""
+    tell_if_missing()
     has_modes, has_arms, has_slip, has_face, has_flight, in_plane = kind
 
     def kernel(block, v, x, s, n_steps, trace):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,9 @@ from mdr.tools.arrays import EXACT, Array, beyond
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, with_error
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HOLDS = (
     "the contact holds: at rest it may stay in many states, of which this is one, and cof_error is the error of this "
@@ -148,7 +151,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
             columns |= {"u_y [m]": self.u_y, "F_y [N]": self.F_y}
         return csv_text(columns)
 
-    def plot(self) -> Any:
+    def plot(self) -> Figure:
         """Draw what was recorded: the mode of every spring over time, and the forces below.
 
         Shaken across, a spring that slips has the colour of its direction of slip.
