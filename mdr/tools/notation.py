@@ -164,6 +164,8 @@ def _instead(text: str) -> str:
     """What to write in the place of what is no number."""
     if not text or text.casefold() in ("nan", "na", "n/a", "-", "--", "inf", "+inf", "-inf", "none", "null"):
         return ", leave the line out"
+    if re.search(r"\d:\d\d", text):
+        return ", but a time of day: write seconds, or of even steps give rate=, in Hz"
     if _GROUPED_BY_POINTS.fullmatch(text):
         return f", write {text.replace('.', '').replace(',', '.')}"
     if _GROUPED.fullmatch(text):

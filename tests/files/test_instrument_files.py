@@ -272,6 +272,9 @@ def test_a_rate_beside_times_that_say_another_is_told(tmp_path):
             warnings.simplefilter("always")
             record = mdr.read_record(path, rate=1000.0)
         assert_allclose(np.diff(record["t"]), 1e-3)
+        if not told:
+            with pytest.raises(ValueError, match="but a time of day: write seconds, or of even steps give rate="):
+                mdr.read_record(path, columns={"t": "Stamp"}, units={"t": "s"})
         words = "step by 0.0005 s, rate by 0.001 s: the rate is taken"
         assert [words in str(one.message) for one in said] == [True] * told
 
