@@ -20,7 +20,7 @@ from validation.report import text_table
 from validation.written import other_verdicts
 
 #: begun first, so that none is alone at the end
-LONGEST = ("generalisation", "coupled", "end_of_stick", "judge", "transverse_slip", "maps", "uncoupled", "resonances")
+LONGEST = ("generalisation", "shear_strength", "coupled", "end_of_stick", "judge", "transverse_slip", "resonances")
 
 
 def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
