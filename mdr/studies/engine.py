@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import sys
 import time
 import warnings
@@ -10,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Generator, Sequence
 from contextlib import closing
 from dataclasses import replace
+from functools import lru_cache
 from itertools import islice
 from queue import SimpleQueue
 from random import Random
@@ -163,19 +165,22 @@ def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generat
 
     What the executor or the work itself raises ends the run; so does closing the generator.
     """
-    from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+    from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 
     if executor is None:
         yield from _run_here(work, cut, chunks)
         return
     ended = Event()
     stop = (ended,) if isinstance(executor, ThreadPoolExecutor) else ()  # an event cannot be sent to other processes
+    asked: tuple[Any, ...] = (compute, work)
+    if isinstance(executor, ProcessPoolExecutor):
+        asked = compute_sent, pickle.dumps(work)
     waiting: dict[Future[Points], int] = {}
     remaining = iter(chunks)
     try:
         while True:
             for chunk in islice(remaining, MOST_IN_FLIGHT - len(waiting)):
-                waiting[executor.submit(compute, work, units_of(cut, chunk), *stop)] = chunk
+                waiting[executor.submit(*asked, units_of(cut, chunk), *stop)] = chunk
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
@@ -184,6 +189,17 @@ def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generat
         ended.set()
         for future in waiting:
             future.cancel()
+
+
+def compute_sent(frame: bytes, units: range) -> Points:
+    """The points of some units of a work that was sent. It is read once: what is mapped of a shape stays known."""
+    return compute(_sent(frame), units)
+
+
+@lru_cache(maxsize=1)
+def _sent(frame: bytes) -> Work:
+    work: Work = pickle.loads(frame)
+    return work
 
 
 def _run_here(work: Work, cut: range, chunks: Sequence[int]) -> Generator[tuple[int, Points], None, None]:

@@ -1,5 +1,6 @@
 """The work: every point in one unit, the velocity innermost, cut by the time of a few units, told by its data."""
 
+import pickle
 import tracemalloc
 from dataclasses import dataclass, replace
 
@@ -153,3 +154,11 @@ def test_a_study_is_told_by_what_was_asked():
     assert described((np.float64(0.1), np.arange(2), None, "a", True, Bowl(100.0))) == [
         0.1, [0, 1], None, "a", True, f"{__name__}.Bowl(curvature=100.0)",
     ]  # fmt: skip
+
+
+def test_a_work_that_is_sent_in_pieces_is_read_once():
+    """So that what is mapped of a shape of one's own stays known to a worker."""
+    sent = pickle.dumps(work(RIGID, {"mu_0": [0.2, 0.4], "v_0/v_c": [0.5]}))
+    pieces = [engine.compute_sent(sent, range(k, k + 1)).values for k in range(2)]
+    assert_array_equal(np.hstack(pieces), compute(pickle.loads(sent), range(2)).values)
+    assert engine._sent(sent) is engine._sent(bytes(bytearray(sent)))
