@@ -29,7 +29,7 @@ class SetPath(NamedTuple):
     """A number that sets fields."""
 
     facts: Facts  #: the rule is for what a rig is set to; a group is refused as its field is
-    fields: tuple[str, ...]  #: of which the first that is there (load) or all that are (frequency) are set
+    fields: tuple[str, ...]  #: of which the first that is there (load, alpha) or all that are (frequency) are set
     in_field: Callable[[float], float]  #: from its unit to that of the field; where more is needed, the number itself
     of: type[Any]  #: record that alone has it
 
@@ -64,7 +64,7 @@ SET = {
                        in_field=lambda frequency: 2 * math.pi * frequency),
     "tan_delta": _sets("material.tau", meaning="loss tangent at the frequency", label=r"loss tangent $\tan\delta$",
                        rule=not_negative, note="loss tangent", of=KelvinVoigt),
-    "alpha": _sets("oscillation.du_z", meaning="relative amplitude du_z/u_z0",
+    "alpha": _sets("oscillation.du_z", "oscillation.cos", meaning="relative amplitude du_z/u_z0",
                    label=r"amplitude $\alpha = \Delta u_z/u_{z0}$"),
     "chi": _sets("shake.du_x", label=r"amplitude $\chi$", meaning="amplitude along the pull over the deflection at "
                  "which springs slip, du_x/(mu_0 kappa u_z0)"),

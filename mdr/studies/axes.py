@@ -215,7 +215,7 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     of_parts = dict.fromkeys(f"{slot}.{one}" for slot, has in parts.items() for part in has for one in fields_of(part))
     if path in (*VELOCITIES, *OF_FACE, *parts) or any(field in of_parts for field in fields_set(path)):
         return
-    slot, _, field = fields_set(path)[-1].partition(".")
+    slot, _, field = fields_set(path)[0 if path in GROUPS else -1].partition(".")
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")

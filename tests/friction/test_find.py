@@ -54,6 +54,13 @@ def test_the_amplitude_of_a_waveform_is_found():
     assert_allclose(larger.cycle.du_z, alpha * 20e-6, rtol=1e-9)
     assert_allclose(np.array(larger.sin) / larger.sin[0], np.array(wave.sin) / wave.sin[0], rtol=1e-12)
     assert larger.u_z0 == wave.u_z0
+    study = mdr.sweep(
+        case, {"alpha": [alpha, 2 * alpha]}, quantities=["static_cof"], held={"load": 0.05, "hold": "load"}
+    )
+    assert study["static_cof"][1] < study["static_cof"][0]
+    held = case_at(case, {"alpha": 2 * alpha, "load": 0.05, "hold": "load"})
+    assert study["static_cof"][1] == mdr.static_cof(held)
+    assert_allclose([mdr.resolved(held).alpha, mdr.studies.CATALOGUE["mean_F_N"].of(held)], [2 * alpha, 0.05])
     with pytest.raises(ValueError, match="alpha must be positive about a depth above zero"):
         case_at(case, {"alpha": -0.1})
 
