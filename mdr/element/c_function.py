@@ -12,7 +12,8 @@ import numpy as np
 from numba import carray, cfunc, float64, int32, intp, njit, types  # type: ignore[attr-defined]
 from numba.extending import intrinsic
 
-from mdr.element.kernels import SpringRow, copied, steps
+from mdr.element.kernels import SpringRow, steps
+from mdr.spring.copies import put
 from mdr.spring.law import Arms, Law, Modes
 from mdr.tools.arrays import SAME, Array
 
@@ -62,10 +63,10 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float, mark: float) -> Any
         stiff = np.empty((1 if tangent != 0 else 0, 3, 3))
         if steps(after, to.copy(), dt if viscous else 1.0, springs, mark, force, stiff) != 0:
             return REFUSED
-        copied(after, numbers(new_state, (1, n_state)))
-        copied(force, numbers(F, (1, 3)))
+        put(after, numbers(new_state, (1, n_state)))
+        put(force, numbers(F, (1, 3)))
         if tangent != 0:
-            copied(stiff[0], numbers(tangent, (3, 3)))
+            put(stiff[0], numbers(tangent, (3, 3)))
         return GOOD
 
     return step

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.contact import Each, Springs, press
+from mdr.spring.copies import put
 from mdr.spring.law import Law
 from mdr.spring.motion import glassy
 from mdr.spring.path import Path
@@ -73,14 +74,6 @@ def room_for(parts, n):
 
 
 @_inline
-def copied(values, into):
-    """Copy an array (m, n) into another."""
-    for j in range(values.shape[0]):
-        for i in range(values.shape[1]):
-            into[j, i] = values[j, i]
-
-
-@_inline
 def parts_of(n_state, n):
     """Compression or extension, and arms, of one of n springs in a state of so many numbers."""
     return (n_state - N_HEAD - 1) // (3 * n)
@@ -121,8 +114,8 @@ def forces(each, F):
 @_inline
 def moved(s, e, z_0, way, contact, T, modes, arms, tools, room):
     """The springs s, e, which are left as they are, after a straight way (3,) from the depth z_0, in the room."""
-    copied(s, room.s)
-    copied(e, room.e)
+    put(s, room.s)
+    put(e, room.e)
     return straight(room.s, room.e, z_0, complex(way[0], way[1]), way[2], contact, T, modes, arms, tools, room.each)
 
 
@@ -217,8 +210,8 @@ def steps(states, us, h, contact, mark, pull, tangents):
             way[k] = us[b, k] / unit[k] - state[k] / unit[k]
         of = moved(s, e, z_0, way, contact, T, modes, arms, tools, room)
         now, area = (of.end.real, of.end.imag, of.normal_end), (of.area.real, of.area.imag, of.normal_area)
-        copied(room.s, new_s)
-        copied(room.e, new_e)
+        put(room.s, new_s)
+        put(room.e, new_e)
         if tangents.size > 0:
             forces(room.each, room.F[0])
             far = max(abs(way[0]), abs(way[1]), abs(way[2]))
@@ -260,7 +253,7 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
     """
     h, low, high, x, wider = tools.times.h, -np.inf, np.inf, z + ahead, WIDER
     for _ in range(MOST_TRIALS):
-        copied(s, trial)
+        put(s, trial)
         rate = (x - z) / h
         of = press(
             trial,
@@ -312,8 +305,8 @@ def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
         if h != tools.times.h:
             tools = tools_of(h, modes, arms, tools)
         if T > 0.0 and load.size == 0 and k > 1:
-            copied(s, s_near)
-            copied(e, e_near)
+            put(s, s_near)
+            put(e, e_near)
             soon, way = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools), SOON * (x[k] - x_0)
             sinks = SOON * (depth[k] - z_0)
             of = straight(s_near, e_near, z, way, sinks, contact, T, modes, arms, soon, None)

@@ -248,7 +248,8 @@ def read_record(
     Warns
     -----
     PlausibilityWarning
-        Of a guess: even times for rounded ones, a column for its unit alone, letters that are not UTF-8.
+        Of a guess: even times for rounded ones, a column for its unit alone, letters that are not UTF-8. And where the
+        file has times that go on by another step than `rate` says.
 
     See Also
     --------

@@ -100,11 +100,11 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
             if hold == "load":
                 return _under_mean_load(parts, settings, changed("oscillation"), load, rest)
     if "alpha" in settings and isinstance(parts["oscillation"], PeriodicMotion):
-        wave = changed("oscillation")
-        if settings["alpha"] * wave.u_z0 <= 0:
+        series = changed("oscillation")
+        if settings["alpha"] * series.u_z0 <= 0:
             raise ValueError(f"alpha must be positive about a depth above zero, got {settings['alpha']!r}")
-        wave = wave.with_amplitude(settings["alpha"] * wave.u_z0)
-        changes["oscillation"] |= {"cos": wave.cos, "sin": wave.sin}
+        series = series.with_amplitude(settings["alpha"] * series.u_z0)
+        changes["oscillation"] |= {"cos": series.cos, "sin": series.sin}
     elif "alpha" in settings:
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)

@@ -139,7 +139,8 @@ class FromForce(Indenter):
         Warns
         -----
         PlausibilityWarning
-            Of touch and baseline that were found.
+            Of touch and baseline that were found, of a force that drifts before the touch, and of one that pulls, as in
+            an adhesive contact.
 
         Examples
         --------

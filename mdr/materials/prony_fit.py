@@ -30,10 +30,15 @@ def to_data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int |
     if n_arms is None:
         n_arms = max(1, min(usual_arms(omega), omega.size // 2))
     n_arms = count("n_arms", n_arms, 1)
-    low, high = omega.min(), omega.max()
-    times = 1 / (np.geomspace(low, high, n_arms) if n_arms > 1 else np.array([np.sqrt(low * high)]))
+    times = _times(omega, n_arms)
     E_inf, moduli = _moduli(omega, modulus, times)
     return E_inf, arms_of(moduli, times)
+
+
+def _times(omega: Array, n_arms: int) -> Array:
+    """Relaxation times [s] of so many arms, spread over the frequencies."""
+    low, high = omega.min(), omega.max()
+    return np.asarray(1 / (np.geomspace(low, high, n_arms) if n_arms > 1 else np.array([np.sqrt(low * high)])))
 
 
 def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Pairs]:
@@ -93,8 +98,8 @@ def warn_of_misfit(
 
 
 def _misfit_with(n_arms: int, omega: Array, modulus: Any) -> float:
-    """Greatest relative deviation of so many arms, spread over the frequencies."""
-    times = 1 / np.geomspace(omega.min(), omega.max(), n_arms)
+    """Greatest relative deviation of so many arms."""
+    times = _times(omega, n_arms)
     E_inf, moduli = _moduli(omega, modulus, times)
     return float(np.max(np.abs(E_inf + arm(np.outer(omega, times)) @ moduli - modulus) / np.abs(modulus)))
 

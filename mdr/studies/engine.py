@@ -59,7 +59,7 @@ class Call:
         try:
             if self.store is not None:
                 return self._in_store(self.store, chunk_seconds, shard)
-            cut = range(0, n, max(1, n // MOST_IN_FLIGHT))
+            cut = _cut_in_memory(n)
             self._compute(range(len(cut)), cut, len(cut))
             return self._found()
         except KeyboardInterrupt:
@@ -151,12 +151,17 @@ class Call:
 
 def points_of(work: Work, what: str) -> Points:
     """All points of a work, in memory, with progress under this name."""
-    n = work.layout.n_units
-    cut, points = range(0, n, max(1, n // MOST_IN_FLIGHT)), Points.blank(len(work.quantities), n, Status.MISSING)
+    points = Points.blank(len(work.quantities), work.layout.n_points, Status.MISSING)
+    cut = _cut_in_memory(work.layout.n_units)
     with closing(run(work, cut, range(len(cut)), None)) as finished:
         for chunk, found in progress(finished, what, "chunks", len(cut)):
             points[work.layout.points(units_of(cut, chunk))].put(found)
     return points
+
+
+def _cut_in_memory(n_units: int) -> range:
+    """How a study without a store is cut."""
+    return range(0, n_units, max(1, n_units // MOST_IN_FLIGHT))
 
 
 def run(work: Work, cut: range, chunks: Sequence[int], executor: Any) -> Generator[tuple[int, Points], None, None]:

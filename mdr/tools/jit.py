@@ -140,5 +140,5 @@ def _own(event: Any) -> bool:
     return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-for one in (Undisturbed(), Notice()):
-    event.register("numba:compile", one)
+event.register("numba:compile", Undisturbed())
+event.register("numba:compile", Notice())

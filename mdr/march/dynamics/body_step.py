@@ -12,6 +12,7 @@ import numpy as np
 
 from mdr.march.dynamics.body import RATE, Y
 from mdr.march.dynamics.broyden import correct
+from mdr.spring.copies import put
 from mdr.spring.face import face_later
 from mdr.spring.motion import glassy
 from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path
@@ -62,21 +63,6 @@ class BodyMotion(NamedTuple):
     rate: float
     b_1: float  #: it moves by b_1 t + b_2 t²
     b_2: float
-
-
-@_inline
-def put(x, out):
-    """Copy x into out, of the same shape (k, n)."""
-    for j in range(x.shape[0]):
-        for i in range(x.shape[1]):
-            out[j, i] = x[j, i]
-
-
-@_inline
-def copy(x, out):
-    """Copy x into out, of the same shape (n,)."""
-    for i in range(x.size):
-        out[i] = x[i]
 
 
 @_inline

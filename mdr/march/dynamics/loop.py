@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.march.dynamics.body import RATE, Y
-from mdr.march.dynamics.body_step import Here, Last, copy, follow, later, note, stepped
+from mdr.march.dynamics.body_step import Here, Last, follow, later, note, stepped
 from mdr.march.dynamics.broyden import ROOM
 from mdr.spring.contact import Look
+from mdr.spring.copies import copy
 from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
 from mdr.spring.face import Faces, face_in
 from mdr.spring.path import FAST, LENT, OWN, Path, along

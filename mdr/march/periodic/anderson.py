@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.dynamics.body_step import copy, put
 from mdr.march.dynamics.kernel import N_T
 from mdr.march.dynamics.state import within_friction
+from mdr.spring.copies import copy, put
 from mdr.spring.path import OWN
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
