@@ -182,12 +182,11 @@ import sys, mdr
 assert not [name for name in {heavy!r} if name in sys.modules]
 from contextlib import suppress
 from mdr.__main__ import main
-for words in (["--help"], ["help"], ["velcity"]):
+for words in (["--help"], ["help"], ["velcity"], ["velocity", {str(ROOT / "docs" / "example.toml")!r}]):
     with suppress(SystemExit):
         main(words)
 assert "numba" not in sys.modules
 import mdr.plots
-main(["velocity", {str(ROOT / "docs" / "example.toml")!r}])
 assert "matplotlib" not in sys.modules
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)

@@ -12,6 +12,7 @@ from mdr.closed_forms.paper import linear_critical_velocity
 from mdr.normal.resolved import at_rest, resolved
 
 UP_TO = 1.3  #: of `velocity_scale`, at which friction has become mu_0: end of a curve
+NEARLY = 0.01  #: share of mu_0 that a fast slide still lacks where friction counts as full again
 POINTS = 24  #: of a curve: its corner at v_c is seen to a twentieth
 
 

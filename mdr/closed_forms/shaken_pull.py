@@ -37,7 +37,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -45,11 +45,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, turns
-from mdr.closed_forms.shaken_spring import Complex, Harmonics, all_changes, all_springs
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.inversion import invert
 from mdr.tools.arrays import EPS, EXACT, Array, beyond
 from mdr.tools.records import ArrayRecord
+
+if TYPE_CHECKING:
+    from mdr.closed_forms.shaken_spring import Complex, Harmonics
 
 TOLERANCE = 2e-10  #: of the sum over an interval of springs, over that of the compression of all
 
@@ -87,6 +89,8 @@ class ShakenPull(ArrayRecord):
     @property
     def _harmonics(self) -> Harmonics:
         """The motion from the greatest z on."""
+        from mdr.closed_forms.shaken_spring import Harmonics
+
         N = max(len(self.Z), len(self.X))
         n = np.arange(1, N + 1)
         turn = np.exp(1j * n * self._start[0])
@@ -118,6 +122,8 @@ def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Arra
     v = np.asarray(v, dtype=float)
     if np.any(v < 0):
         raise ValueError(f"v must not be negative, got {float(v.min())!r}: ask the mirrored pull")
+    from mdr.closed_forms.shaken_spring import all_changes
+
     harmonics = pull._harmonics
     marks = _marks(pull)
     gaps = _gaps(pull, marks)
@@ -190,6 +196,8 @@ def _integrals(
 
     The finer rule takes the springs of the coarser one and those between, where the coarser errs by more than allowed.
     """
+    from mdr.closed_forms.shaken_spring import all_springs
+
     found, missed = np.empty((3, low.size)), np.empty(low.size)
     left, means = np.arange(low.size), np.empty((3, low.size, 0))
     for rule in _RULES:

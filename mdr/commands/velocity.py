@@ -6,20 +6,21 @@ import argparse
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import mdr
 from mdr.case.doubts import edge, frequencies
 from mdr.closed_forms.across import is_across_alone
-from mdr.closed_forms.critical_velocity import formula_of
+from mdr.closed_forms.critical_velocity import NEARLY, formula_of
 from mdr.closed_forms.laws.across import full_across
 from mdr.closed_forms.laws.strength import has_edge_law
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
-from mdr.friction.shaken import HoldingBand, band_of_pull
-from mdr.friction.verdict import NEARLY
 from mdr.normal.normal_force import full_cof, mean_normal_force
+
+if TYPE_CHECKING:
+    from mdr.friction.shaken import HoldingBand
 
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts
 
@@ -140,7 +141,7 @@ def ends_of(case: mdr.SlidingContact) -> list[Told]:
     blocked, force, own = _asked(lambda: _at_rest(case), _span, "the same under its own pull, standing still")
     unloaded = "velocity at which it runs by itself, where no force holds it"
     free, velocity, alone = _asked(lambda: mdr.no_load_velocity(case), velocity_text, unloaded)
-    held = blocked if isinstance(blocked, HoldingBand) else None
+    held = None if isinstance(blocked, float | str) else blocked
     return [
         Told("holding_band", [band.low, band.high], "band", _span(band), standing),
         Told("blocked_cof", None if held else blocked, "blocked", force, own),
@@ -160,13 +161,15 @@ def _asked(ask: Callable[[], Any], write: Callable[[Any], str], meaning: str) ->
 
 def _at_rest(case: mdr.SlidingContact) -> float | HoldingBand:
     """Friction where its own pull stands still."""
+    from mdr.friction.shaken import band_of_pull
+
     held = band_of_pull(mdr.resolved(case))
     return mdr.blocked_cof(case) if held.is_one_number else held
 
 
 def _span(held: HoldingBand | float) -> str:
     """A band of forces, or one force."""
-    if not isinstance(held, HoldingBand):
+    if isinstance(held, float):
         return f"{held:.6g}"
     return f"{held.high:.6g} (one value)" if held.is_one_number else f"{held.low:.6g} to {held.high:.6g}"
 

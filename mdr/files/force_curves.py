@@ -4,7 +4,8 @@ Where the curve begins before the touch, the force there is flat. Touch and base
 
     F = baseline + C max(d - touch, 0)^n
 
-that come closest to the first third of the rise, n as the tip has it; they are told.
+that come closest to the first third of the rise, n as the tip has it; they are told. Where the tip is not known, so are
+the touches of a round and of a sharp one: a cone with a round end has its touch between them.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from os import PathLike
 import numpy as np
 
 from mdr.files.measurements import read_table
+from mdr.indenters.mapping.force_curves import TIPS
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite
 from mdr.tools.csv_header import Column, fault
@@ -50,7 +52,8 @@ def force_points(
     found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST else None
     if found is not None and _begins_before(d, F, found[0], are_depths):
         touch, baseline = found[0], found[1] if baseline is None else baseline
-        warn_outside(f"{table.source}: touch={touch:.6g} m and baseline={baseline:.4g} N are taken, as found")
+        taken = f"touch={touch:.6g} m and baseline={baseline:.4g} N are taken, as found"
+        warn_outside(f"{table.source}: {taken}{'' if power else _of_other_tips(d, F)}")
     elif touch is not None and baseline is None and np.any(d < touch):
         baseline = float(F[d < touch].mean())
         warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
@@ -71,6 +74,12 @@ def force_points(
     if d.size and d[0] > 0:
         d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)
     return d, F
+
+
+def _of_other_tips(d: Array, F: Array) -> str:
+    """Between which touches that of an unknown tip lies: one that is round at first and sharp above is between both."""
+    sharp, is_round = (touch_of(d, F, TIPS[tip])[0] for tip in ("sharp", "round"))
+    return f'; with tip="sharp" the touch would be {sharp:.6g} m, with tip="round" {is_round:.6g} m'
 
 
 def _doubt(table: Table, F: Array, d: Array, touch: float) -> None:

@@ -178,6 +178,10 @@ def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]
         return np.arange(T.size)
     if not np.any(near := np.abs(T - temperature) <= WITHIN * (1 + SAME)):
         raise table.fault(f"no moduli within {WITHIN:g} K of temperature = {temperature:.6g} degC; there are {there}")
+    if np.any(beside := ~near & (np.abs(T - temperature) <= 2 * WITHIN)):
+        i, n = int(np.argmax(beside)), int(np.count_nonzero(beside))
+        rows = f"line {table.lines[i]}{f' and {n - 1} more are' if n > 1 else ' is'} left out, at {T[i]:.6g} degC"
+        warn_outside(f"{table.source}: {rows}, more than {WITHIN:g} K from temperature = {temperature:.6g} degC")
     return np.flatnonzero(near)
 
 

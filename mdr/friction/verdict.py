@@ -15,7 +15,7 @@ from mdr import half_space
 from mdr.case.contact import SlidingContact
 from mdr.closed_forms.across import is_across_alone, static_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
-from mdr.closed_forms.critical_velocity import critical_velocity, formula_of
+from mdr.closed_forms.critical_velocity import NEARLY, critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
@@ -39,7 +39,6 @@ from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed, with_error
 
-NEARLY = 0.01  #: share of mu_0 that a fast slide still lacks, shaken across, where friction is called full again
 STRONG = 0.02  #: of what springs leave out (beta, lambda, static friction over mu_0), from which it is said
 
 

@@ -9,6 +9,7 @@ has no arms, normal_force.py has the closed form of the same force; that these a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +18,11 @@ from mdr.case.depth_cycle import Cycle, at_instants
 from mdr.indenters.base import Indenter
 from mdr.materials.operator import Rheology
 from mdr.normal.spring_grid import Depths, nodes
-from mdr.spring.law import law_of
-from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.records import ArrayRecord
+
+if TYPE_CHECKING:
+    from mdr.spring.settle import NormalPeriod
 
 N_STEPS = 2048  #: of the period
 
@@ -141,6 +143,9 @@ def _tip(rheology: Rheology, cycle: Cycle, n_t: int) -> tuple[NDArray[np.bool_],
 
 def followed_springs(rheology: Rheology, gap: Array, w: Array, cycle: Cycle, n_t: int) -> NormalPeriod:
     """The periodic motion of springs of these gaps, over the unit of the cycle, and weights, in n_t steps."""
+    from mdr.spring.law import law_of  # what is compiled waits until springs are followed
+    from mdr.spring.settle import settled
+
     law = law_of(rheology.T, rheology.rho, rheology.theta)
     known = settled(gap, w, *cycle.over_a_period(n_t), law, each=True)
     if known is None:

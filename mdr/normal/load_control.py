@@ -32,7 +32,6 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import N_STEPS, normal_cycle
-from mdr.tools.anderson import shares
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import instance, positive
 from mdr.tools.memoise import remembered
@@ -249,6 +248,8 @@ def _anderson(
             u = u + 0.5 * moves[-1]
             continue
         steps = np.diff(np.array(moves), axis=0)
+        from mdr.tools.anderson import shares
+
         share = shares(_real(steps), _real(moves[-1]), 1e-8)
         u = tried[-1] + moves[-1] - share @ (np.diff(np.array(tried), axis=0) + steps)
     return best, least

@@ -23,7 +23,6 @@ from mdr.materials.base import Material
 from mdr.materials.operator import Rheology
 from mdr.normal.followed_force import N_STEPS, followed_springs
 from mdr.normal.spring_grid import Depths, nodes
-from mdr.spring.law import law_of
 from mdr.tools.arrays import SAME
 from mdr.tools.memoise import remembered
 from mdr.tools.notation import GRAVITY
@@ -49,6 +48,8 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     T, rho, theta = rheology.T, np.array(rheology.rho), np.array(rheology.theta)
     decay, gain = np.exp(-h / theta), -np.expm1(-h / theta) * theta / h  # of arms that are held
     lag, of_arms = T / h + float(rho * theta / h @ (1 - gain)), rho * theta / h * (1 - decay)
+    from mdr.spring.law import law_of
+
     modes = law_of(T, rheology.rho, rheology.theta).modes
     free = np.zeros((1, 1)) if modes is None else modes.out * np.exp(-modes.mu * h) @ modes.into
     n = width.size

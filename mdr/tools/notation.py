@@ -25,14 +25,14 @@ def _prefixed(unit: str, prefixes: str, scale: float = 1.0) -> dict[str, float]:
 
 GRAVITY = 9.80665  #: standard gravity [m/s²]
 UNITS = {
-    "m": _prefixed("m", "cmµn") | {"Å": 1e-10},
+    "m": _prefixed("m", "cmµn") | {"Å": 1e-10, "inch": 0.0254},
     "m/s": _prefixed("m/s", "cmµn") | {"mm/min": 1e-3 / 60},
     "m/s²": _prefixed("m/s2", "m") | _prefixed("g", "m", GRAVITY),
     "N": _prefixed("N", "kmµnp"),
-    "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6},
+    "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6, "bar": 1e5, "psi": 0.45359237 * GRAVITY / 0.0254**2},
     "1/Pa": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9},
-    "rad/s": {"rad/s": 1.0} | _prefixed("Hz", "mkM", math.tau),
-    "Hz": _prefixed("Hz", "mkM") | {"rad/s": 1 / math.tau},
+    "rad/s": {"rad/s": 1.0} | _prefixed("Hz", "mkM", math.tau) | {"rpm": math.tau / 60},
+    "Hz": _prefixed("Hz", "mkM") | {"rad/s": 1 / math.tau, "rpm": 1 / 60},
     "rad": _prefixed("rad", "m") | dict.fromkeys(("deg", "°"), math.pi / 180),
     "deg": dict.fromkeys(("deg", "°"), 1.0) | {"rad": 180 / math.pi},
     "s": _prefixed("s", "mµn") | {"min": 60.0, "hr": 3600.0},

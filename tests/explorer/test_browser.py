@@ -84,7 +84,7 @@ def test_the_phase_moves_the_springs_and_nothing_else(browser):
     [
         ("mu_0", "rough", "mu_0 wants a pure number, such as 0.1 or 10%, got 'rough'"),
         ("oscillation.u_z0", "-1", "the indenter never touches"),
-        ("material.E", "3 mm", "E wants Pa (or kPa, MPa, GPa, N/mm2), got '3 mm'"),
+        ("material.E", "3 mm", "E wants Pa (or kPa, MPa, GPa, N/mm2, bar, psi), got '3 mm'"),
     ],
 )
 def test_a_wrong_number_is_refused_with_words_and_the_picture_stays(browser, path, text, words):

@@ -45,6 +45,17 @@ def test_touch_and_baseline_of_a_known_shape_are_found(shape, power, n):
     assert abs(baseline - 0.05 * greatest) < 4 * 0.01 * greatest / (n / 3) ** 0.5  # of a third of the points
 
 
+@pytest.mark.parametrize("shape", [mdr.Hyperboloid(h=4e-8, c=1e-7), mdr.CappedCone(b=2e-7, theta=0.35)])
+def test_the_touch_of_a_cone_with_a_round_end_is_between_those_that_are_told(tmp_path, shape):
+    z, F, greatest = curve(shape, noise=0.002)
+    with pytest.warns(mdr.PlausibilityWarning, match="as found") as told:
+        read(written(tmp_path / "data.csv", z, F), smoothing=0.003 * greatest)
+    said = re.search(r'with tip="sharp" the touch would be (\S+) m, with tip="round" (\S+) m', str(told[0].message))
+    sharp, is_round = map(float, said.groups())
+    assert sharp < TOUCH < is_round
+    assert is_round - sharp < 0.5 * DEPTH
+
+
 def test_a_ball_comes_back_within_the_noise(tmp_path):
     z, F, greatest = curve(BALL, noise=0.005)
     with pytest.warns(mdr.PlausibilityWarning, match=r"touch=1.* m and baseline=.* N are taken, as found"):

@@ -285,7 +285,7 @@ def test_a_refusal_shows_the_lines_all_faults_and_what_to_give(tmp_path):
         mdr.FromForce.read(path, E_star=1e6, columns={"d": "Ch 1", "F": "Ch 3"})
     assert str(refused.value).replace(str(path), "data.csv").splitlines() == [
         "data.csv: the header names no Ch 3; columns= must name one of these",
-        "data.csv: d needs a unit in its header, one of m, cm, mm, um, nm, Å: d [um]",
+        "data.csv: d needs a unit in its header, one of m, cm, mm, um, nm, Å, inch: d [um]",
         "  line 2: Time | Ch 1 | Ch 2",
         "  line 3: 0,0 | 0,1 | x",
         "  line 4: 0,1 | 0,2 | y",

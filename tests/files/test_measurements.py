@@ -203,7 +203,7 @@ def test_arguments_of_a_reader_are_checked(write):
     path = write(f"r [um], f\n{SCAN}\n")
     for arguments, words in [
         ({"units": {"h": "um"}}, "units: h is no column; there are r, f"),
-        ({"units": {"f": "inch"}}, "units: f = 'inch' is none of m, cm"),
+        ({"units": {"f": "yard"}}, "units: f = 'yard' is none of m, cm"),
         ({"units": {"r": "mm", "f": "nm"}}, "gives r in um, units= in mm; give one"),
         ({"columns": {"f": "Z"}}, "the header names no Z; columns= must name one of these"),
         ({"side": "top"}, 'side must be "both", "left" or "right"'),

@@ -18,9 +18,10 @@ READ = {
     "m/s": {"10 mm/s": 0.01, "10mm/s": 0.01, "0.01": 0.01, "6 mm/min": 1e-4, "3 um/s": 3e-6, "1 m/s": 1.0,
             "-2 cm/s": -0.02},
     "rad/s": {"50 Hz": 50 * TURN, "50Hz": 50 * TURN, "20 kHz": 2e4 * TURN, "314.159": 314.159, "3 rad/s": 3.0,
-              "5 mHz": 5e-3 * TURN, "2 MHz": 2e6 * TURN},
-    "Hz": {"50": 50.0, "50 Hz": 50.0, "0.05 kHz": 50.0, "314 rad/s": 314 / TURN},
-    "Pa": {"3 MPa": 3e6, "3e6": 3e6, "3e6 Pa": 3e6, "2.5GPa": 2.5e9, "10 kPa": 1e4, "2 N/mm²": 2e6, "2 N/mm^2": 2e6},
+              "5 mHz": 5e-3 * TURN, "2 MHz": 2e6 * TURN, "3000 rpm": 50 * TURN},
+    "Hz": {"50": 50.0, "50 Hz": 50.0, "3000 rpm": 50.0, "0.05 kHz": 50.0, "314 rad/s": 314 / TURN},
+    "Pa": {"3 MPa": 3e6, "3e6": 3e6, "3e6 Pa": 3e6, "2.5GPa": 2.5e9, "10 kPa": 1e4, "2 N/mm²": 2e6, "2 N/mm^2": 2e6,
+           "5 bar": 5e5, "400 psi": 400 * 0.45359237 * 9.80665 / 0.0254**2},
     "N": {"5 N": 5.0, "5mN": 5e-3, "0.1 kN": 100.0},
     "rad": {"45 deg": math.pi / 4, "45°": math.pi / 4, "0.1": 0.1, "0.1 rad": 0.1},
     "deg": {"1.5": 1.5, "1.5 deg": 1.5},
@@ -34,7 +35,7 @@ READ = {
 }  # fmt: skip
 REFUSED = {
     "Pa": {
-        "3 mm": "E wants Pa (or kPa, MPa, GPa, N/mm2), got '3 mm'", "5 N": "wants Pa", "3 mpa": "wants Pa",
+        "3 mm": "E wants Pa (or kPa, MPa, GPa, N/mm2, bar, psi), got '3 mm'", "5 N": "wants Pa", "3 mpa": "wants Pa",
         "3 MPa m": "wants Pa", "MPa": "wants Pa", "": "wants Pa", "soft": "wants Pa", "nan": "wants Pa",
         "inf Pa": "wants Pa", "1e999 Pa": "E: 1e999 is no number", "2,5 MPa": "E: 2,5 is no number, write 2.5 with",
         "1,000 Pa": "write 1000 without a thousands", "1.000,5 Pa": "write 1000.5", "3 MPa 4": "wants Pa",
@@ -43,7 +44,7 @@ REFUSED = {
     },
     "m": {"3 m/s": "wants m (or cm", "5 km": "wants m", "3 um2": "wants m", "50 Hz": "wants m", "5 s": "wants m"},
     "m/s": {"5 m": "wants m/s", "5 mm": "wants m/s", "5 km/h": "wants m/s", "0.5 v_c": "wants m/s"},
-    "rad/s": {"50 hz": "wants rad/s (or Hz, mHz, kHz, MHz)", "3 rad": "wants rad/s", "20 ms": "wants rad/s"},
+    "rad/s": {"50 hz": "wants rad/s (or Hz, mHz, kHz, MHz, rpm)", "3 rad": "wants rad/s", "20 ms": "wants rad/s"},
     "rad": {"45 degrees": "wants rad (or mrad, deg, °)"},
     "-": {"0.5 N": "wants a pure number, such as 0.1 or 10%", "10%%": "wants a pure number", "half": "wants a pure"},
     "N": {"3 kg": "wants N", "5 Nm": "wants N"},
