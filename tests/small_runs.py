@@ -90,6 +90,15 @@ def presses():
                 yield f"{name}, {type(shape).__name__}, {what}", [*run.u_z, *run.F_z, *run.contact_radius, *loads]
 
 
+def records():
+    """Recorded motion through a contact."""
+    t = np.linspace(0, 0.02, 13)
+    found = mdr.slide_record(
+        mdr.Paraboloid(R=5e-3), MATERIALS["Kelvin"], 0.4, t, 1e-3 * t, u_z=1e-5 + 4e-6 * np.sin(900 * t), n_springs=32
+    )
+    yield "record", [*found.F_x, *found.F_z]
+
+
 def cycles():
     """Springs in their periodic normal motion; arms too fast for the steps find none, or alternate."""
     fast = mdr.Prony(3e6, [(3.511e5, 8.036e-4), (1.129e6, 1.618e-4)], 0.4, tau=0.4875)
@@ -103,7 +112,7 @@ def cycles():
         yield f"{name}, cycle", numbers or [np.nan]
 
 
-MAKERS = (least_squares, slides, shaken_pulls, searches, presses, cycles)
+MAKERS = (least_squares, slides, shaken_pulls, searches, presses, records, cycles)
 
 
 def results():

@@ -79,7 +79,9 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     x = np.fft.rfftfreq(n, step) / high_pass
     gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
     spectrum = np.fft.rfft(a - a.mean(), n)
-    power, below = np.abs(spectrum) ** 2, (x > 0.1) & (x < 1)  # slower still is drift
+    # of a drift little is left where the straight line and both ends are taken off; slower still is drift
+    line = np.polynomial.Polynomial.fit(t, a, 1)
+    power, below = np.abs(np.fft.rfft((a - line(t)) * np.hanning(t.size), n)) ** 2, (x > 0.1) & (x < 1)
     if power[below].sum() > power[x >= 1].sum():
         loudest = x[below][np.argmax(power[below])] * high_pass
         warn_outside(f"most of a lies below the high-pass, at {loudest:.4g} Hz, and is left out: lower high_pass")

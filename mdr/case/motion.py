@@ -328,7 +328,7 @@ class PeriodicMotion(Motion):
         Parameters
         ----------
         du_z : float
-            What the depth falls by below its mean [m].
+            Half the way from the least to the greatest depth [m].
 
         Returns
         -------

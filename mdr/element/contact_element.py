@@ -18,7 +18,6 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.element.c_function import c_function
 from mdr.element.kernels import BEYOND, IMPOSSIBLE, N_HEAD, NOT_FINITE, OF_ANOTHER, SpringRow, fault, steps
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material, refuse_other_materials
@@ -28,6 +27,7 @@ from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import count, finite_array, instance, not_negative, positive, real_array
+from mdr.tools.compiler import tell_if_missing
 from mdr.tools.fields import Record, check_fields, facts
 
 NO_TANGENT = np.empty((0, 3, 3))
@@ -233,6 +233,8 @@ class ContactElement(Record):
 
     @cached_property
     def _c_function(self) -> Any:
+        from mdr.element.c_function import c_function
+
         return c_function(self._row, self.n_state, self.u_z_max, self._mark)
 
     def __getstate__(self) -> dict[str, Any]:  # compiled code has an address in one process alone
@@ -282,6 +284,7 @@ class ContactElement(Record):
 
 def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> SpringRow:
     """The springs for depths up to `deepest` [m], cut where contact is lost at `least`; refuses what no case takes."""
+    tell_if_missing()
     instance("indenter", indenter, Indenter)
     instance("material", material, Material)
     mu_0 = positive("mu_0", mu_0, "coefficient of friction")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from html import escape
-from io import StringIO
 from typing import Any
 
 import panel as pn
@@ -20,20 +19,21 @@ Deliver = Callable[[Any, Any], None]
 
 
 class Asked:
-    """A button, and below it the answer, HTML, to a state; dropped as soon as another state is shown."""
+    """A button, and below it the answer, HTML, to the state shown; dropped as soon as another one is."""
 
     def __init__(
         self, label: str, kind: str, work: Callable[[State, Callable[[], None]], Iterator[str]],
-        computed: Callable[[Deliver], Deliver],
+        computed: Callable[[Deliver], Deliver], shown: Callable[[], State],
     ) -> None:  # fmt: skip
         self.said, self.kind = look.html(), kind
         self.asked: State | None = None
         self.work: Latest[State, str] = Latest(work, computed(self._say))
         self.button: Any = pn.widgets.Button(name=label, button_type="primary", margin=(6, 5), css_classes=[kind])
-
-    def of(self, shown: Callable[[], State]) -> list[Any]:
-        """Button and answer; shown tells the state that is asked about."""
         self.button.on_click(lambda _: self._ask(shown()))
+
+    @property
+    def parts(self) -> list[Any]:
+        """Button and answer."""
         return [self.button, self.said]
 
     def drop(self) -> None:
@@ -60,15 +60,11 @@ def verdict_of(state: State, watch: Callable[[], None] = lambda: None) -> Iterat
 
 def half_space_of(state: State, watch: Callable[[], None] = lambda: None) -> Iterator[str]:
     """Friction at v_0 on cells of a half-space, and the contact from above at four instants of a period."""
-    from matplotlib import pyplot as plt
-
     from mdr import half_space
+    from mdr.plots.figures import svg_of
 
     with silent(watch):
         run = half_space.slide(resolved(state.case), state.v_0)
-        fig, out = run.plot(), StringIO()
-        fig.savefig(out, format="svg")
-        plt.close(fig)
+        drawn = svg_of(run.plot).partition("<svg")[2]
     told = f"On {run.cells} × {run.cells} cells of a half-space the COF is {run.cof:.4g} ± {run.cof_error:.1g}."
-    drawn = out.getvalue().partition("<svg")[2]
     yield f'{told}<div style="overflow-x:auto"><svg style="min-width:760px;max-width:100%;height:auto" {drawn}</div>'

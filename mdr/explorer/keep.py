@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from io import BytesIO, StringIO
+from io import StringIO
 from typing import Any
 
 import panel as pn
@@ -45,17 +45,14 @@ class Keep:
         self.toml.value, self.python.value = example_file(state.case), python_of(state)
         self.link.value = query and f"http://{host}/?{query}"
 
-    def _svg(self, draw: Callable[[Any], Any]) -> BytesIO:
+    def _svg(self, draw: Callable[[Any], Any]) -> StringIO:
         """A figure of the project's plots."""
-        from matplotlib import pyplot as plt
+        from mdr.plots.figures import svg_of
 
-        out = BytesIO()
-        if self.picture is not None:
-            drawn = draw(_complete(self.picture))
-            drawn.savefig(out, format="svg")
-            plt.close(drawn)
-        out.seek(0)
-        return out
+        if self.picture is None:
+            return StringIO()
+        picture = _complete(self.picture)
+        return StringIO(svg_of(lambda: draw(picture)))
 
 
 def _complete(picture: Picture) -> Picture:

@@ -43,8 +43,8 @@ class Page:
         self.keep, self.board = Keep(self._go), Board(state, self.attempt)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.asked = [
-            Asked("Judge the closed form by simulation", "verdict", verdict_of, self._computed),
-            Asked("See the contact on a half-space", "half-space", half_space_of, self._computed),
+            Asked("Judge the closed form by simulation", "verdict", verdict_of, self._computed, lambda: self.state),
+            Asked("See the contact on a half-space", "half-space", half_space_of, self._computed, lambda: self.state),
         ]
         self.alert.object = look.refused(refusal)
         curve, springs, forces = self.legends.values()
@@ -69,9 +69,7 @@ class Page:
             look.area("springs", look.heading("The springs over a period"), self.faded["springs"]),
             stylesheets=[look.PICTURES],
         )
-        numbers = look.area(
-            "numbers", self.numbers, *(part for one in self.asked for part in one.of(lambda: self.state))
-        )
+        numbers = look.area("numbers", self.numbers, *(part for one in self.asked for part in one.parts))
         body = look.column(pictures, self.board.view, numbers, self.keep.view, stylesheets=[look.LAYOUT])
         return look.column(top, self.alert, body, stylesheets=[look.PAGE])
 

@@ -83,9 +83,6 @@ class State:
             return state._with(replace(case, **{slot: None}))
         mine = {path.partition(".")[2]: one for path, one in state.kept.items() if path.startswith(f"{slot}.")}
         sizes, others = scales_of(self.case), {}
-        if slot == "oscillation" and name in WAVEFORMS:  # of what moves now
-            known = sizes | now
-            return state._with(replace(case, oscillation=WAVEFORMS[name](known["u_z0"], known["du_z"], known["omega"])))
         if slot == "shake":
             mine["omega"] = sizes["omega"]
         if slot == "oscillation" and not new.omega and case.shake is None:  # else nothing would move
@@ -93,6 +90,11 @@ class State:
             case, state = shaken.case, replace(shaken, kept={**shaken.kept, "": shaken.case.shake})
         elif slot == "oscillation" and new.omega and case.shake is not None and case.shake == state.kept.get(""):
             others = {"shake": None}
+        if slot == "oscillation" and name in WAVEFORMS:  # falls as far as what moves now
+            known, moves = sizes | now, old.knows_depth and old.omega
+            fall = -old.cycle.unit * old.cycle.least if moves else sizes["du_z"]
+            wave = WAVEFORMS[name](known["u_z0"], fall, known["omega"] or sizes["omega"])
+            return state._with(replace(case, **others, oscillation=wave))
         for known in (sizes | mine | now, sizes | now):
             shared = {one: known[one] for one in fields_of(new) if one in known}
             with suppress(TypeError, ValueError):  # what has the same name may mean another thing

@@ -84,19 +84,20 @@ def _of_other_tips(d: Array, F: Array) -> str:
 
 def _doubt(table: Table, F: Array, d: Array, touch: float) -> None:
     """Warn of a baseline that drifts, and of adhesion."""
-    before, most = F[d < touch], float(F.max())
-    if before.size < TOLD_FROM:
+    early, most = d < touch, float(F.max())
+    n = np.count_nonzero(early)
+    if n < TOLD_FROM:
         return
-    noise = 1.05 * float(np.median(np.abs(np.diff(before))))  # the standard deviation, of normal noise
-    if -F.min() > max(8 * noise, 0.01 * most):
+    noise = 1.05 * float(np.median(np.abs(np.diff(F[early]))))  # the standard deviation, of normal noise
+    x = (d - d[early].mean()) / np.ptp(d[early])
+    drift = float(x[early] @ F[early] / (x[early] @ x[early]))  # of a straight line, from end to end of what is early
+    pull = float((F[early].mean() + drift * x - F).max())
+    if pull > max(8 * noise, 0.01 * most):
         warn_outside(
-            f"{table.source}: forces down to {F.min():.2g} N pull: of an adhesive contact, which this library does not "
+            f"{table.source}: forces down to -{pull:.2g} N pull: of an adhesive contact, which this library does not "
             "know, the shape comes out wrong"
         )
-        return
-    x = np.linspace(-0.5, 0.5, before.size)
-    drift = float(12 * np.mean(x * before))  # of a straight line, from end to end
-    if abs(drift) > max(6 * noise * np.sqrt(12 / before.size), 0.01 * most):
+    elif abs(drift) > max(6 * noise * np.sqrt(12 / n), 0.01 * most):
         warn_outside(
             f"{table.source}: the force drifts by {drift:.2g} N before the touch, which shifts what is found of it: "
             "take the straight line off the forces, and give touch= and baseline=0"

@@ -79,8 +79,13 @@ class DynamicModuli(NamedTuple):
 
 def read_table(path: str | PathLike[str], columns: Sequence[Column], reading: Reading) -> Table:
     """The columns in a CSV file."""
-    text, said = decoded(read_bytes(path, MOST_BYTES, "table"))
+    text, said = _text_of(path)
     return table_of(text, fsdecode(path), columns, reading, said)
+
+
+def _text_of(path: str | PathLike[str]) -> tuple[str, Any]:
+    """The text of a file, and what is said of its letters."""
+    return decoded(read_bytes(path, MOST_BYTES, "table"))
 
 
 def read_moduli(
@@ -271,14 +276,13 @@ def read_record(
     """
     wanted = MOTION if rate is None else tuple(one for one in MOTION if one is not TIME)
     step = None if rate is None else 1 / positive("rate", rate, "in Hz")
-    table = read_table(path, wanted, Reading(units, columns, skip))
+    text, said = _text_of(path)
+    table = table_of(text, fsdecode(path), wanted, Reading(units, columns, skip), said)
     record = table.values
     if not record.keys() - {"t"}:
         raise table.lacks("a time alone", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]", "a_x", "a_y", "a_z")
     if step is not None:
-        own = _own_step(path, Reading(units, columns, skip))
-        if abs(own - step) > 0.01 * step:
-            warn_outside(f"{table.source}: its times step by {own:.4g} s, rate by {step:.4g} s: the rate is taken")
+        _doubt_rate(text, table.source, Reading(_of_time(units), _of_time(columns), skip), step)
         record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}
     elif np.any(falls := np.diff(record["t"]) < 0):
         raise table.fault(f"t falls in line {table.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
@@ -287,12 +291,19 @@ def read_record(
     return record
 
 
-def _own_step(path: str | PathLike[str], reading: Reading) -> float:
-    """Step [s] of the times that a file has, NaN where it has none that can be read."""
-    with suppress(ValueError, OSError), warnings.catch_warnings():
+def _doubt_rate(text: str, source: str, reading: Reading, step: float) -> None:
+    """Warn where a file has times of its own that go on by another step [s], by more than they are rounded."""
+    t = np.zeros(1)
+    with suppress(ValueError), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return float(np.median(np.diff(read_table(path, (TIME,), reading).values["t"])))
-    return math.nan
+        t = table_of(text, source, (TIME,), reading).values["t"]
+    taken, rounded, n = float(np.ptp(t)), np.diff(np.unique(t)).min(initial=np.inf), t.size - 1
+    if abs(taken - step * n) - rounded > 0.01 * step * n:
+        warn_outside(f"{source}: its times step by {taken / n:.4g} s, rate by {step:.4g} s: the rate is taken")
+
+
+def _of_time(given: Mapping[str, Any] | None) -> dict[str, Any]:
+    return {key: value for key, value in (given or {}).items() if key == "t"}
 
 
 def _evened(t: Array, source: str) -> Array:

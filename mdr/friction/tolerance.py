@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
+from mdr.case.motion import PeriodicMotion
 from mdr.case.paths import facts_at, fields_set
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
@@ -107,7 +108,7 @@ def tolerance(
         Share [-], between 0 and 1, by which each input is made smaller, and larger.
     fields : iterable of str, optional
         Inputs: paths as in `find`, or "v_0". None: every number of the case that is not zero, `frequency` for one
-        omega, what is `held` for the field that it sets; and v_0.
+        omega, what is `held` for the field that it sets, alpha of a series; and v_0.
     held : mapping of str to float, optional
         What the case was made from: "load" [N] for its depth u_z0, "tan_delta" [-] for its tau. They hold while other
         inputs vary, and vary themselves. Beside a load "hold" says what stays: "depth", at which it rests, or "load",
@@ -188,4 +189,4 @@ def _inputs(case: SlidingContact, held: Mapping[str, Any]) -> list[str]:
     alike = {value_at(case, path) for path in fields_set("frequency") if path in paths}
     for setting in (*(("frequency",) if len(alike) == 1 else ()), *held):
         paths = list(dict.fromkeys(setting if path in fields_set(setting) else path for path in paths))
-    return [*paths, "v_0"]
+    return [*paths, *(["alpha"] if isinstance(case.oscillation, PeriodicMotion) else []), "v_0"]

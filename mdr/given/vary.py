@@ -126,9 +126,9 @@ def _under_mean_load(
     def at(u_z0: float) -> SlidingContact:
         return contact_of(parts, {**others, "oscillation.u_z0": u_z0})
 
-    swing = motion.cycle.unit * motion.cycle.greatest
-    rises = swing / motion.cycle.du_z  # by how much it rises above its mean, over what it falls below
-    least = rest / (1 + rises * max(settings["alpha"], 0.0)) if "alpha" in settings else rest - swing
+    cycle = motion.cycle
+    alpha = max(settings["alpha"], 0.0) if "alpha" in settings else None
+    least = rest - cycle.unit * cycle.greatest if alpha is None else rest / (1 + alpha * cycle.greatest)
     return under_mean_load(at, load, least, rest)
 
 

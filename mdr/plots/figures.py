@@ -4,9 +4,11 @@ Functions with `ax` draw on it (or on a new one) and return it; the others retur
 by attribute only. Times are in periods of the oscillation, lengths and forces in the prefix that reads best.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from io import StringIO
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +36,7 @@ __all__ = [
     "prefix",
     "save",
     "style",
+    "svg_of",
 ]
 
 #: Okabe and Ito (2008): distinct to colour-blind readers, and dark enough on white
@@ -41,6 +44,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#5
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
 
+_ONE = Lock()  # pyplot has one style and one list of figures for all threads
 PIECES = 16  #: straight ones between two points of a smooth line
 
 
@@ -73,6 +77,20 @@ def style(changes: Mapping[str, Any] | None = None) -> Iterator[None]:
         yield
     finally:
         mpl.rcParams.update(before)
+
+
+def svg_of(draw: "Callable[[], Figure]") -> str:
+    """The SVG of a figure that is drawn here, for a thread beside others."""
+    from matplotlib import pyplot as plt
+
+    out = StringIO()
+    with _ONE:
+        figure = draw()
+        try:
+            figure.savefig(out, format="svg")
+        finally:
+            plt.close(figure)
+    return out.getvalue()
 
 
 def plot_curve(

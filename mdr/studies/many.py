@@ -65,9 +65,8 @@ class ManyCofs(Summarised, Tabled, ArrayRecord):
         str
             What `to_csv` writes.
         """
-        columns = {"v_0 [m/s]": self.v_0, "cof [-]": self.cof, "cof_y [-]": self.cof_y}
-        columns |= {"cof_error [-]": self.cof_error, "stick_share [-]": self.stick_share}
-        return csv_text(columns | {"status": self.status.astype(int)})
+        known = {f"{one.name} [{one.unit}]": getattr(self, one.name) for one in COLUMNS}
+        return csv_text({"v_0 [m/s]": self.v_0, **known, "status": self.status.astype(int), "why": list(self.why)})
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,8 @@ def slide_many(
 ) -> ManyCofs:
     """Friction of many contacts, each at its own velocity, on all cores of this machine.
 
-    For lists that are no grid: a random sample, the rows of a table. Of a grid `sweep` keeps what is finished.
+    For lists that are no grid: a random sample, the rows of a table. Of a grid `sweep` keeps what is finished. For many
+    velocities of one contact `cof_curve` is faster.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ else:
         from numba.core.types import Complex, NoneType
         from numba.experimental import function_type  # noqa: F401, teaches numba what a WrapperAddressProtocol is
         from numba.extending import overload, register_jitable
-    except ImportError as fault:
+    except (ImportError, OSError) as fault:  # or a library that it loads
         LACK = str(fault)
 
         def njit(**_: Any) -> Any:

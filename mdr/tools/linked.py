@@ -27,7 +27,6 @@ try:
             """Link what it calls; neither optimised nor made machine code."""
             self._raise_if_finalized()
             for library in dict.fromkeys(self._linking_libraries):
-                self._reload_init.update(library._reload_init)
                 self._final_module.link_in(library._get_module_for_linking(), preserve=True)
             self._finalize_dynamic_globals()
             self._finalized = True
@@ -43,7 +42,6 @@ try:
             super().run_pass(state)
             key: Any = set[int]().pop  # a function of its own, as numba asks for, which answers no call
             state.targetctx.insert_user_function(key, state["cr"].fndesc, [library])
-            state.reload_init.extend(library._reload_init)
             state["cr"] = state["cr"]._replace(cfunc=key)
             return True
 

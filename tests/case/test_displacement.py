@@ -29,7 +29,8 @@ def test_a_burst_is_integrated():
 def test_a_vibration_below_the_high_pass_is_told():
     t = np.arange(4001) * 5e-4
     tone = np.sin(2 * np.pi * 80 * t)
-    mdr.displacement_of(t, tone + 3.0 * t, high_pass=20.0)  # what drifts is meant to go, in silence
+    for drift in (3.0 * t, 50.0 * t, 30.0 * t**2, 10.0 * (t > 1)):  # what drifts is meant to go, in silence
+        mdr.displacement_of(t, tone + drift, high_pass=20.0)
     with pytest.warns(mdr.PlausibilityWarning, match=r"at [78][90].* Hz, and is left out: lower high_pass"):
         mdr.displacement_of(t, tone, high_pass=150.0)
 

@@ -58,7 +58,12 @@ def test_every_kind_can_be_chosen_and_keeps_what_it_shares():
                 depth = after.case.oscillation.u_z(np.linspace(0, after.case.oscillation.period, 2001))
                 sine = body.case.oscillation
                 assert_allclose([depth[:-1].mean(), depth.min()], [sine.u_z0, sine.u_z0 - sine.du_z], rtol=1e-4)
-    assert body.changed("oscillation", "ConstantDepth").case.is_shaken  # else nothing would move
+    still = body.changed("oscillation", "ConstantDepth")
+    assert still.case.is_shaken  # else nothing would move
+    assert not still.changed("oscillation", "Sawtooth").case.is_shaken
+    square = body.changed("oscillation.du_z", 6e-6).changed("oscillation", "Square")
+    saw = square.changed("oscillation", "Sawtooth").case.oscillation
+    assert_allclose(-saw.cycle.unit * saw.cycle.least, 6e-6, rtol=1e-9)
     heavy = body.changed("oscillation", "LoadOscillation").case
     assert_allclose(mdr.resolved(heavy).working_depth, body.case.working_depth, rtol=0.05)  # two digits of the load
 

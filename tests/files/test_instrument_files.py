@@ -265,14 +265,20 @@ def test_a_table_is_the_same_in_every_dialect(tmp_path, seed):
 
 def test_a_rate_beside_times_that_say_another_is_told(tmp_path):
     """A date and a clock, which are no times in seconds, are passed over in silence."""
-    for head, stamp, told in (("Time (s)", "{:.4f}", True), ("Stamp", "2024-05-01 12:00:{:06.3f}", False)):
-        rows = "".join(f"{stamp.format(0.0005 * k)};{k % 3}\n" for k in range(9))
-        path = written(tmp_path, f"{head};Acc Z (g)\n{rows}")
+    forms = {
+        "Time (s)": ("{:.4f}", 5e-4, True),
+        "Stamp": ("2024-05-01 12:00:{:06.3f}", 5e-4, False),
+        "Time [s]": ("{:.3f}", 1.04e-3, False),  # rounded
+        "t [s]": ("{:.0f}", 1e-3, False),  # to whole seconds
+    }
+    for head, (stamp, step, told) in forms.items():
+        rows = "".join(f"{stamp.format(step * k)};{k % 3}\n" for k in range(9))
+        path = written(tmp_path, f"{head};Ch 1 (g)\n{rows}")
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            record = mdr.read_record(path, rate=1000.0)
+            record = mdr.read_record(path, rate=1000.0, columns={"a_z": "Ch 1"})
         assert_allclose(np.diff(record["t"]), 1e-3)
-        if not told:
+        if head == "Stamp":
             with pytest.raises(ValueError, match="but a time of day: write seconds, or of even steps give rate="):
                 mdr.read_record(path, columns={"t": "Stamp"}, units={"t": "s"})
         words = "step by 0.0005 s, rate by 0.001 s: the rate is taken"

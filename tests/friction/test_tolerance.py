@@ -66,6 +66,12 @@ def test_small_steps_are_the_derivative_of_eq_1():
         )
 
 
+def test_the_amplitude_of_a_waveform_is_an_input():
+    wave = mdr.waveforms.pulse(20e-6, 2e-6, 300.0, width=0.25, n_harmonics=4)
+    case = mdr.SlidingContact(mdr.Cone(0.0127), mdr.Elastic(E=3e6, nu=0.5), 0.4, wave)
+    assert "alpha" in mdr.tolerance(case, 1e-4, by=0.1).cof
+
+
 def test_what_a_case_cannot_have_is_moved_to_what_it_can():
     case = mdr.SlidingContact(
         mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.48), 0.5, mdr.NormalOscillation(20e-6, 19.9e-6, 314.0)

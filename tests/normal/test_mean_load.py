@@ -74,6 +74,15 @@ def test_what_varies_is_warned_of_and_not_what_it_begins_with():
         case_of(HORN)
 
 
+def test_a_load_that_is_held_about_a_constant_depth_is_that_of_the_depth():
+    ball, rubber, shake = mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), mdr.InPlaneOscillation(300.0, 5e-6)
+    case = mdr.SlidingContact(ball, rubber, 0.4, mdr.ConstantDepth(20e-6), shake=shake)
+    held = {"load": 0.05, "hold": "load"}
+    assert_allclose(mean_normal_force(case_at(case, held)), 0.05, rtol=1e-9)
+    found = mdr.sweep(case, {"shake.du_x": [5e-6, 2e-6], "v_0": [1e-4]}, quantities=("mean_F_z",), held=held)
+    assert_allclose(found["mean_F_z"], 0.05, rtol=1e-9)
+
+
 def test_a_load_that_is_sought_or_varied_is_the_mean_load():
     said = case_of(HELD | {"oscillation": HELD["oscillation"] | {"du_z": 7e-6}})
     v_0, truth = 0.01, case_at(said.case, {"load": 7.0, "hold": "load"})

@@ -23,7 +23,7 @@ def test_each_has_the_numbers_of_its_own_curve():
     assert_array_equal(found.cof_y[:3], 0.0)
     assert found.cof_y[3] == curves[3].cof_y[0]
     assert found.settled.all()
-    assert found.table().splitlines()[0] == "v_0 [m/s],cof [-],cof_y [-],cof_error [-],stick_share [-],status"
+    assert found.table().splitlines()[0] == "v_0 [m/s],cof [-],cof_y [-],cof_error [-],stick_share [-],status,why"
 
 
 def test_one_stands_for_all():
