@@ -1,6 +1,7 @@
 """The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `tolerance` and
-`export` of a case file, `mdr record` and `mdr motion` of a recorded motion, `mdr sweep` of a study file, `mdr explore`
-in the browser, `mdr shapes` and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
+`export` of a case file, `mdr record` of a recorded motion, `mdr indenter`, `mdr material` and `mdr motion` of what was
+measured, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to begin with, `mdr
+warm` to compile ahead, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -65,8 +66,14 @@ COMMANDS = {
         "add_options_of_tolerance"),
     "record": Command(
         "record:record", "friction under a recorded motion, from a CSV file and a case file", options="add_options"),
+    "indenter": Command(
+        "tables:indenter", "a table [indenter] from measured heights, or force over depth, in a CSV file",
+        options="add_options_of_indenter"),
+    "material": Command(
+        "tables:material", "a table [material] from measured moduli, relaxation, creep or arms, in a CSV file",
+        options="add_options_of_material"),
     "motion": Command(
-        "record:motion", "a table [oscillation] from what an accelerometer recorded, from a CSV file",
+        "tables:motion", "a table [oscillation] from what an accelerometer recorded, from a CSV file",
         options="add_options_of_motion"),
     "export": Command(
         "export:export", "the contact as a C header or a unit for co-simulation (FMI 2.0)", CASE, "add_options"),

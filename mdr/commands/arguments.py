@@ -72,6 +72,10 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
+#: arguments of the readers, which are options of the commands
+READING = ("columns", "units", "rate", "temperature", "smoothing", "nu", "part", "touch", "tip", "kinks", "apex", "E_0")
+
+
 def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> None:
     """What a CSV file does not say of itself; of one over time its rate too."""
     for name, value, what in (
@@ -105,7 +109,11 @@ def in_options(message: str) -> str:
         return " ".join([f"--{given[1]}", *(shlex.quote(f"{name}={word or bare}") for name, word, bare in pairs)])
 
     message = re.sub(r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?", option, message)
-    return re.sub(r"\b(columns|units|rate)=(?=[ ,])", r"--\1", message)
+    return re.sub(rf'\b({"|".join(READING)})=("?)([\w.+-]*)\2', _option, message)
+
+
+def _option(given: re.Match[str]) -> str:
+    return f"--{given[1].replace('_', '-')} {given[3]}".rstrip()
 
 
 def _pair(text: str) -> tuple[str, str]:

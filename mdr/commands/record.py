@@ -1,21 +1,17 @@
-"""`mdr record`: friction under a recorded motion, as a CSV file and a figure. `mdr motion`: the periodic motion that
-an accelerometer recorded, as a table of a case file.
-"""
+"""`mdr record`: friction under a recorded motion, as a CSV file and a figure."""
 
 from __future__ import annotations
 
 import argparse
-import math
 from dataclasses import asdict, replace
 from typing import Any
 
 import mdr
 from mdr.case.coulomb import require_coulomb
 from mdr.case.displacement import inner_part
-from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file, velocity, whole_number
-from mdr.commands.output import WrongInput, answer, picked, refusals
+from mdr.commands.arguments import add_reading, path_of, read_as, read_file, velocity, whole_number
+from mdr.commands.output import WrongInput, answer, picked
 from mdr.commands.written import add_output, make_folder, write_found
-from mdr.files.examples import example
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
@@ -97,37 +93,3 @@ def with_displacements(
         return motion
     inner = inner_part(motion["t"], positive("high_pass", high_pass))
     return {name: values[inner] for name, values in motion.items()}
-
-
-def add_options_of_motion(command: argparse.ArgumentParser) -> None:
-    """The record, the depth that it does not tell, and its frequency."""
-    record = "what an accelerometer recorded over three periods or more: columns t [s], a_z [g]; - is standard input"
-    command.add_argument("motion", metavar="shaker.csv", type=path_of, help=record)
-    command.usage = "%(prog)s shaker.csv --u-z0 depth [options] > table.toml"
-    depth = plain_number("m", "a depth such as 20um")
-    command.add_argument("--u-z0", metavar="depth", type=depth, required=True, help="mean depth: 20um")
-    known = plain_number("Hz", "a frequency such as 80Hz")
-    command.add_argument("--frequency", metavar="80Hz", type=known, help="fundamental (default: it is found)")
-    add_reading(command, of_time=True)
-    command.epilog = 'The table [oscillation] goes into a case file, where load = "5 N" may stand in the place of u_z0.'
-    command.epilog += " Positive a_z points into the half-space."
-
-
-def motion(args: argparse.Namespace, _: None) -> int:
-    """Print the table [oscillation] of the recorded motion."""
-    with refusals():
-        record = read_file(mdr.read_record, args.motion, args)
-        if "a_z" not in record:
-            raise WrongInput(f"{args.motion}: the header names no a_z, the acceleration into the half-space")
-        t, a_z = record["t"], record["a_z"]
-        found = mdr.PeriodicMotion.from_acceleration(t, a_z, u_z0=args.u_z0, frequency=args.frequency)
-    rest = a_z - a_z.mean() - found.u_z_ddot(t)
-    values = {"omega": found.omega, "du_z": found.cycle.du_z, "u_z0": args.u_z0, "cos": found.cos, "sin": found.sin}
-    values["left_out"] = float(rest.std() / a_z.std())
-    table = next(
-        one
-        for one in mdr.write_case(replace(example(), oscillation=found)).split("\n\n")
-        if one.startswith("[oscillation]")
-    )
-    head = f"# {found.omega / (2 * math.pi):.6g} Hz, {len(found.cos)} harmonics, amplitude {found.cycle.du_z:.6g} m; "
-    return answer(args, values, f"{head}{values['left_out']:.2g} of a_z (rms) left out\n{table.strip()}")

@@ -109,6 +109,11 @@ def written(case: SlidingContact, held: Mapping[str, Any]) -> str:
     return "\n\n".join(["\n".join(top), *tables]) + "\n"
 
 
+def write_table(name: str, record: Any) -> str:
+    """The table of one record, without what stands around it in a case file."""
+    return _written(_TABLES[name], record, {})
+
+
 class Tables(NamedTuple):
     """What the tables of a case file say, as far as they are sound; what is wrong with them is among the faults."""
 

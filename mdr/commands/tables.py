@@ -1,0 +1,145 @@
+"""`mdr indenter`, `mdr material` and `mdr motion`: what was measured, from a CSV file, as a table of a case file."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from functools import partial
+from typing import Any
+
+import mdr
+from mdr.commands.arguments import add_reading, path_of, plain_number, read_file, whole_number
+from mdr.commands.output import WrongInput, answer, refusals
+from mdr.files.case_files import write_table
+from mdr.tools.notation import value_in
+
+#: what is asked of heights and of forces, {option: unit}, "" for a word
+OF_HEIGHTS = {"smoothing": "m", "tip": "", "apex": "m", "side": "", "kinks": "m"}
+OF_FORCES = {"smoothing": "N", "tip": "", "part": "", "touch": "m", "baseline": "N"}
+MEANINGS = {
+    "smoothing": "standard deviation of the noise of the heights, 14nm, or of the forces, 2uN",
+    "tip": "of heights round or sharp, of forces any, round, sharp or flat",
+    "apex": "place of the tip in the scan (default: 0)",
+    "side": "of the tip: both, left or right",
+    "kinks": "radii of edges",
+    "part": "approach or retract",
+    "touch": "reading of the depth at first touch (default: found)",
+    "baseline": "force before the touch (default: found)",
+}
+SOURCES: dict[str, tuple[Any, Any]] = {
+    "moduli": (mdr.read_moduli, mdr.Prony.fit),
+    "relaxation": (mdr.read_relaxation, mdr.Prony.fit_relaxation),
+    "creep": (mdr.read_creep, mdr.Prony.fit_creep),
+}
+
+
+def add_options_of_indenter(command: argparse.ArgumentParser) -> None:
+    """The file, and what it does not say."""
+    what = "heights along a line, columns r [um], f [nm]; with --E-star normal force over depth, d [um], F [mN]"
+    command.add_argument("measured", metavar="scan.csv", type=path_of, help=what)
+    command.usage = "%(prog)s scan.csv [options] > table.toml"
+    modulus = plain_number("Pa", "a modulus such as 4MPa")
+    pressed = "contact modulus of the body that was pressed: 4MPa"
+    command.add_argument("--E-star", metavar="modulus", type=modulus, help=pressed)
+    for name, meaning in MEANINGS.items():
+        command.add_argument(f"--{name}", nargs="+" if name == "kinks" else None, metavar=name, help=meaning)
+    command.add_argument("--flip", action="store_true", help="the tip was measured pointing up")
+    add_reading(command)
+    command.epilog = "The table [indenter] goes into a case file."
+
+
+def indenter(args: argparse.Namespace, _: None) -> int:
+    """Print the table [indenter] of measured heights or forces."""
+    units, is_force = (OF_HEIGHTS, False) if args.E_star is None else (OF_FORCES, True)
+    given: dict[str, Any] = {"E_star": args.E_star} if is_force else {"flip": args.flip}
+    for name in MEANINGS:
+        if (text := getattr(args, name)) is None:
+            continue
+        if name not in units:
+            raise WrongInput(f"--{name} is of {'heights' if is_force else 'forces, which need --E-star'}: leave it out")
+        given[name] = text if not units[name] else _value(name, text, units[name])
+    read = mdr.FromForce.read if is_force else mdr.SampledProfile.read
+    with refusals():
+        found = read_file(partial(read, **given), args.measured, args)
+    values = {"shape": type(found).__name__, "max_radius": found.max_radius}
+    return _table(args, "indenter", found, values, f"known up to a radius of {found.max_radius:.6g} m")
+
+
+def _value(name: str, text: str | list[str], unit: str) -> Any:
+    try:
+        return value_in(name, text, unit) if isinstance(text, str) else [value_in(name, one, unit) for one in text]
+    except ValueError as wrong:
+        raise WrongInput(f"--{wrong}") from None
+
+
+def add_options_of_material(command: argparse.ArgumentParser) -> None:
+    """The file, what it holds, and what it does not say."""
+    what = "dynamic moduli over frequency, columns f [Hz], E' [MPa], E'' [MPa]; or what --of names"
+    command.add_argument("measured", metavar="moduli.csv", type=path_of, help=what)
+    command.usage = "%(prog)s moduli.csv --nu 0.5 [options] > table.toml"
+    ratio = plain_number("-", "Poisson's ratio such as 0.5")
+    command.add_argument("--nu", metavar="ratio", type=ratio, required=True, help="Poisson's ratio")
+    command.add_argument("--of", choices=[*SOURCES, "arms"], default="moduli", help="what the file holds")
+    arms = "Maxwell arms of the fit (default: two a decade of moduli, three of a step)"
+    command.add_argument("--n-arms", metavar="n", type=whole_number(1), help=arms)
+    degrees = plain_number("", "a temperature in degC such as 20")
+    command.add_argument("--temperature", metavar="degC", type=degrees, help="of moduli at several, those at this one")
+    modulus = plain_number("Pa", "a modulus such as 4MPa")
+    command.add_argument("--E-0", metavar="modulus", type=modulus, help="of arms that are shares: instantaneous E")
+    add_reading(command)
+    command.epilog = "The table [material] goes into a case file."
+
+
+def material(args: argparse.Namespace, _: None) -> int:
+    """Print the table [material] of measured moduli, relaxation or creep, or of a table of arms."""
+    options = {"n_arms": args.n_arms, "temperature": args.temperature, "E_0": args.E_0}
+    taken = {"moduli": ("n_arms", "temperature"), "arms": ("E_0",)}.get(args.of, ("n_arms",))
+    for name, value in options.items():
+        if value is not None and name not in taken:
+            raise WrongInput(f"--{name.replace('_', '-')} says nothing of {args.of}: leave it out")
+    missed: float | None = None
+    with refusals():
+        if args.of == "arms":
+            found = read_file(partial(mdr.Prony.read, nu=args.nu, E_0=args.E_0), args.measured, args)
+        else:
+            reader, fit = SOURCES[args.of]
+            at = {"temperature": args.temperature} if args.of == "moduli" else {}
+            data = read_file(partial(reader, nu=args.nu, **at), args.measured, args)
+            found = fit(*data, nu=args.nu, n_arms=args.n_arms)
+            missed = found.misfit(*data) if args.of == "moduli" else None
+    said = "" if missed is None else f", {100 * missed:.2g} % off the data at most"
+    return _table(args, "material", found, {"misfit": missed}, f"{len(found.arms)} arms{said}")
+
+
+def add_options_of_motion(command: argparse.ArgumentParser) -> None:
+    """The record, the depth that it does not tell, and its frequency."""
+    record = "what an accelerometer recorded over three periods or more: columns t [s], a_z [g]; - is standard input"
+    command.add_argument("measured", metavar="shaker.csv", type=path_of, help=record)
+    command.usage = "%(prog)s shaker.csv --u-z0 depth [options] > table.toml"
+    depth = plain_number("m", "a depth such as 20um")
+    command.add_argument("--u-z0", metavar="depth", type=depth, required=True, help="mean depth: 20um")
+    known = plain_number("Hz", "a frequency such as 80Hz")
+    command.add_argument("--frequency", metavar="80Hz", type=known, help="fundamental (default: it is found)")
+    add_reading(command, of_time=True)
+    command.epilog = 'The table [oscillation] goes into a case file, where load = "5 N" may stand in the place of u_z0.'
+    command.epilog += " Positive a_z points into the half-space."
+
+
+def motion(args: argparse.Namespace, _: None) -> int:
+    """Print the table [oscillation] of the recorded motion."""
+    with refusals():
+        record = read_file(mdr.read_record, args.measured, args)
+        if "a_z" not in record:
+            raise WrongInput(f"{args.measured}: the header names no a_z, the acceleration into the half-space")
+        t, a_z = record["t"], record["a_z"]
+        found = mdr.PeriodicMotion.from_acceleration(t, a_z, u_z0=args.u_z0, frequency=args.frequency)
+    rest = float((a_z - a_z.mean() - found.u_z_ddot(t)).std() / a_z.std())
+    values = {"omega": found.omega, "du_z": found.cycle.du_z, "u_z0": args.u_z0, "cos": found.cos, "sin": found.sin}
+    head = f"{found.omega / (2 * math.pi):.6g} Hz, {len(found.cos)} harmonics, amplitude {found.cycle.du_z:.6g} m; "
+    return _table(args, "oscillation", found, {**values, "left_out": rest}, f"{head}{rest:.2g} of a_z (rms) left out")
+
+
+def _table(args: argparse.Namespace, name: str, record: Any, values: dict[str, Any], said: str) -> int:
+    """Print a table below what there is to say of it."""
+    table = write_table(name, record)
+    return answer(args, {**values, "table": table}, f"# {said}\n{table}")
