@@ -24,6 +24,7 @@ from mdr.tools.warned import warn_outside
 LEAST_PERIODS = 2.9  #: in a record: three, but for what their number is uncertain by
 MOST = 100  #: harmonics that are looked at
 AT_ONCE = 1024  #: samples whose powers are held
+LONELY = 10.0  #: times what a hundredth of the samples exceeds: a sample so far off is hardly one of the motion
 ROUNDING = 1e-14  #: mean square of a rest, over that of the record, that may be rounding
 
 Complex = NDArray[np.complex128]
@@ -68,7 +69,7 @@ def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
         _require_sampled(record, omega, f"frequency = {frequency:.6g} Hz")
     fit = _kept(record, omega, _up_to(record.most(omega)))
     if not fit.orders.size:
-        raise _nothing()
+        raise _nothing(record)
     A = _by_order(fit)
     _tell(record, omega, A, fit)
     return Series(omega, A * np.exp(-1j * np.arange(1, A.size + 1) * omega * t.mean()))
@@ -82,8 +83,13 @@ def sampled(t: ArrayLike, a: ArrayLike) -> tuple[Array, Array]:
     return t, a
 
 
-def _nothing() -> ValueError:
-    return ValueError("a: nothing periodic stands out of the noise; give a longer record, or its frequency")
+def _nothing(record: _Record) -> ValueError:
+    size = np.abs(record.a - np.median(record.a))
+    k = int(np.argmax(size))
+    way_out = "give a longer record, or its frequency"
+    if size[k] > LONELY * np.sort(size)[-1 - max(3, size.size // 100)]:
+        way_out = f"sample {k + 1} lies {size[k]:.4g} m/s² off the others: leave it out if it is wrong"
+    return ValueError(f"a: nothing periodic stands out of the noise; {way_out}")
 
 
 def _require_sampled(record: _Record, omega: float, what: str) -> None:
@@ -209,7 +215,7 @@ def _tuned(record: _Record, omega: float, top: int) -> float:
         top = min(top, most)
         orders = _kept(record, omega, _up_to(top)).orders
         if not orders.size:
-            raise _nothing()
+            raise _nothing(record)
         omega = _refined(record, omega, orders)
         if top >= most:
             return omega

@@ -25,7 +25,7 @@ from mdr.indenters.base import Indenter
 from mdr.materials.base import Material, answers, refuse_other_materials
 from mdr.materials.operator import Rheology
 from mdr.tools.checks import instance, not_negative, positive
-from mdr.tools.fields import check_fields, facts, facts_of
+from mdr.tools.fields import Record, check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
 
@@ -42,7 +42,7 @@ OF_FACE = ("mu_0", "tau_0")  #: numbers of the contact as a whole
 
 
 @dataclass(frozen=True)
-class SlidingContact(Summarised):
+class SlidingContact(Record, Summarised):
     """An indenter that slides on a half-space while it is shaken, in the normal direction or in the plane.
 
     Examples
@@ -98,8 +98,8 @@ class SlidingContact(Summarised):
             )
         if not self.oscillation.omega and (self.shake is None or self.shake.is_still):
             raise ValueError(
-                f"nothing oscillates: {self.oscillation!r} is constant, and shake = {self.shake!r}; give a shake with "
-                "an amplitude, or an oscillation"
+                f"nothing oscillates: {self.oscillation!r} is constant, and shake = {self.shake!r}; friction is then "
+                "mu_0, without a computation; give a shake with an amplitude, or an oscillation"
             )
         _ = self.repeats  # refuses frequencies in no ratio
         guided = np.isinf(self.pull.across[2]) and not self.pull.is_rigid

@@ -71,6 +71,8 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
         for key, unit, size in _sizes(part):
             if unit == "m" and name == "indenter" and part.is_body and LONGEST <= size < np.inf:
                 yield f"{name}: {key} = {size:.4g} m is {LONGEST:g} m or more: is it in mm?"
+            elif unit == "Pa" and name == "indenter" and not SOFTEST < size < STIFFEST_SOLID:
+                yield f"{name}: {key} = {size:.4g} Pa is no modulus of a solid: is it in MPa or GPa?"
             elif unit == "m" and name != "indenter" and 0 < size < ATOM:
                 yield f"{name}: {key} = {size:.4g} m is below the size of an atom, {ATOM:g} m: is it in another unit?"
             elif unit == "rad/s" and size >= 2000 and np.isclose(size, float(f"{size:.1e}"), rtol=1e-12):

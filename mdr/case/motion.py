@@ -45,8 +45,8 @@ def fill_up(record: Any, *names: str) -> int:
     return length
 
 
-NO_DEPTH = "amplitude of the depth in m; a depth that does not oscillate is a ConstantDepth"
-NO_LOAD = "amplitude of the load in N; a load that does not oscillate is a ConstantLoad"
+NO_DEPTH = "amplitude of the depth in m; a depth that does not oscillate is a ConstantDepth, under a shake"
+NO_LOAD = "amplitude of the load in N; a load that does not oscillate is a ConstantLoad, under a shake"
 FREQUENCY = facts("rad/s", "angular frequency", label=r"angular frequency $\omega$", example=314.159)
 MEAN_DEPTH = facts("m", "mean indentation depth", finite, label="mean depth $u_{z0}$", example=20e-6)
 

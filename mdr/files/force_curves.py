@@ -30,7 +30,7 @@ FLAT = 5  #: points before the touch that make a baseline
 TOLD_FROM = 10  #: the same, from which their noise is known
 LEAST = 2  #: the same of a curve whose readings are no depths
 FORCE = (
-    Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.1)),
+    Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.01)),
     Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6)),
 )
 
@@ -60,7 +60,7 @@ def force_points(
     if touch is not None:
         _doubt(table, F - (baseline or 0.0), d, touch)
     F = F - (baseline or 0.0)
-    if np.all(F <= 0):
+    if np.all(F <= 0) or (-F.min() > 2 * F.max() and np.argmin(F) > 0.9 * F.size):  # what is deepest pulls most
         raise table.fault("no force is above zero; compression must be positive, turn the sign of F")
     if touch is not None:
         early = np.arange(d.size) < np.argmax(RISE * F.max() <= F)

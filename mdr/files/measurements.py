@@ -42,6 +42,7 @@ MODULI = (
     Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s", lone=True),
     Column("storage", ("E'", "storage modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("loss", ("E''", "loss modulus"), "Pa", needed=False),
+    Column("|E*|", ("|E|", "E*", "complex modulus", "dynamic modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("tan_delta", TAN_DELTA, needed=False, likely=(0.0, 5.0)),
     Column("G'", ("shear storage modulus",), "Pa", needed=False, likely=LIKELY_MODULUS),
     Column("G''", ("shear loss modulus",), "Pa", needed=False),
@@ -103,7 +104,7 @@ def read_moduli(
     ----------
     path : str or path-like
         The file. Its header names the frequency (in Hz or rad/s), the storage modulus E', and the loss modulus E'' or
-        tan delta: `f [Hz], E' [MPa], tan delta`.
+        tan delta: `f [Hz], E' [MPa], tan delta`; or |E*| and tan delta.
     nu : float, optional
         Poisson's ratio [-]. Only shear moduli need it, columns G' and G'': E = 2 (1 + nu) G.
     temperature : float, optional
@@ -112,8 +113,8 @@ def read_moduli(
         Units of columns whose header has none, such as {"omega": "Hz", "storage": "MPa"}.
     columns : dict of str or int, optional
         What the header calls a column, such as {"storage": "Speichermodul"}, or its number, from 1; the columns are
-        omega, storage, loss, tan_delta, G', G'' and T. An empty name leaves a column out: {"T": ""} of a master curve,
-        whose frequencies are shifted to one temperature.
+        omega, storage, loss, tan_delta, |E*|, G', G'' and T. An empty name leaves a column out: {"T": ""} of a
+        master curve, whose frequencies are shifted to one temperature.
     skip : int, optional
         Lines above the header. None finds it.
 
@@ -145,6 +146,8 @@ def read_moduli(
             raise table.fault("shear moduli G' and G'' need Poisson's ratio, as E = 2 (1 + nu) G: give nu=")
         stretch = 2 * (1 + poisson_ratio("nu", nu))
     storage, loss = (found.get(name) for name in (("G'", "G''") if of_shear else ("storage", "loss")))
+    if storage is None and "|E*|" in found and "tan_delta" in found:
+        storage = found["|E*|"] / np.hypot(1, found["tan_delta"])
     if storage is None:
         raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa]", "storage", "loss")
     if loss is None and "tan_delta" not in found:
@@ -280,7 +283,13 @@ def read_record(
     table = table_of(text, fsdecode(path), wanted, Reading(units, columns, skip), said)
     record = table.values
     if not record.keys() - {"t"}:
-        raise table.lacks("a time alone", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]", "a_x", "a_y", "a_z")
+        raise table.lacks(
+            "a time, and nothing else by a name known here",
+            "t [s], a [m/s²], or t [s], u_x [um], u_z [um]",
+            "a_x",
+            "a_y",
+            "a_z",
+        )
     if step is not None:
         _doubt_rate(text, table.source, Reading(_of_time(units), _of_time(columns), skip), step)
         record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}

@@ -30,8 +30,11 @@ COLUMNS = (
         "v_0", ("v", "velocity", "speed", "sliding velocity", "sliding speed"), "m/s", lone=True, likely=(0.0, 100.0)
     ),
     Column("cof", ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"), "-"),
-    Column("error", ("cof_error", "sigma", "std", "std dev", "standard deviation", "uncertainty"), "-", needed=False),
-)
+    Column("error", (
+        "cof_error", "mu_error", "mu_err", "err", "error bar", "sigma", "std", "std dev", "sd", "standard deviation",
+        "sem", "standard error", "uncertainty", "u(mu)",
+    ), "-", needed=False),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -99,6 +102,11 @@ def read_friction_data(
     ValueError
         With file and line of what is wrong.
 
+    Warns
+    -----
+    PlausibilityWarning
+        Of columns that may be the error, where none is named so.
+
     Examples
     --------
     >>> from pathlib import Path
@@ -108,6 +116,11 @@ def read_friction_data(
     array([0.0005, 0.001 ])
     """
     table = read_table(path, COLUMNS, Reading(units, columns, skip))
+    if "error" not in table.values and "error" not in (columns or {}) and (others := table.header.unread):
+        say = f'columns={{"error": "{others[-1]}"}}'
+        warn_outside(
+            f"{table.source}: {', '.join(others)} left alone, and no error known: if {others[-1]} is it, say {say}"
+        )
     try:
         return FrictionData(**table.values)
     except ValueError as refusal:

@@ -79,6 +79,10 @@ class FromForce(Indenter):
                 "those of the first touch"
             )
         d, F = np.array(self.d), np.array(self.F)
+        if self.smoothing >= (most := F.max()) > 0:
+            raise ValueError(
+                f"smoothing = {self.smoothing:.6g} N is the noise of the forces, which reach {most:.6g} N: give it in N"
+            )
         falls = "" if self.smoothing else not_ascending("F", self.F)
         why, smoothing = (falls, told_smoothing(self, d, F, "N")) if falls else why_not(self, d, F, "N")
         if why:  # the contact must grow while it is pressed deeper

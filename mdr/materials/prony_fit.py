@@ -90,10 +90,10 @@ def warn_of_misfit(
     elif (n_arms or omega.size // 2) < usual and _misfit_with(usual, omega, modulus) < missed[k] / 2:
         way_out = f"n_arms={usual} may come nearer"
     else:
-        way_out = "no passive body of one temperature has such moduli: is a unit wrong, or a column another quantity?"
+        way_out = "no arms have such moduli at one temperature: is a unit wrong, or a column another quantity?"
     warn_outside(
-        f"the body misses the moduli by {missed[k]:.0%} at {omega[k]:.4g} rad/s ({omega[k] / (2 * np.pi):.4g} Hz), and "
-        f"by more than {TOLD:.0%} hardly for noise: {way_out}"
+        f"the body misses the moduli by {missed[k]:.0%} at {omega[k]:.4g} rad/s ({omega[k] / (2 * np.pi):.4g} Hz); "
+        f"noise alone is hardly more than {TOLD:.0%}: {way_out}"
     )
 
 

@@ -64,8 +64,8 @@ def warn_of_misfit(body: OneBody, t: ArrayLike, wanted: ArrayLike, is_creep: boo
     off = np.abs(own / np.asarray(wanted) - 1)
     if (k := int(np.argmax(off))) >= 0 and off[k] > TOLD:
         warn_outside(
-            f"the body misses the test by {off[k]:.0%} at {t[k]:.4g} s, by more than {TOLD:.0%} hardly for noise: "
-            f"no passive body {'creeps' if is_creep else 'relaxes'} so; is a unit wrong, or the end of the step later?"
+            f"the body misses the test by {off[k]:.0%} at {t[k]:.4g} s, and noise alone is hardly more than "
+            f"{TOLD:.0%}: no arms {'creep' if is_creep else 'relax'} so; is a unit wrong, or the end of the step later?"
         )
 
 

@@ -4,6 +4,7 @@ Functions with `ax` draw on it (or on a new one) and return it; the others retur
 by attribute only. Times are in periods of the oscillation, lengths and forces in the prefix that reads best.
 """
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import StringIO
@@ -12,6 +13,8 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from mdr.tools.notation import scale_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,6 +47,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#5
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))
 
+OVER_V_C = r"$v_0/v_c$"
 _ONE = Lock()  # pyplot has one style and one list of figures for all threads
 PIECES = 16  #: straight ones between two points of a smooth line
 
@@ -110,7 +114,8 @@ def plot_curve(
         One name for each curve.
     absolute : bool, optional
         True draws the COF against v_0 in m/s (or mm/s, µm/s), False either over the curve's own scale, mu_0 and v_c.
-        None: True for several curves. Where a curve has no finite v_c (resonance) it is True.
+        None: True for several curves, and where ``ax`` shows something already, whose unit is taken. Where a curve has
+        no finite v_c (resonance) it is True.
 
     Returns
     -------
@@ -118,12 +123,12 @@ def plot_curve(
         Where it was drawn.
     """
     curves = [curves] if hasattr(curves, "cof") else list(curves)
-    absolute = len(curves) > 1 if absolute is None else absolute
+    absolute = len(curves) > 1 or (ax is not None and ax.has_data()) if absolute is None else absolute
     if labels is not None and len(labels) != len(curves):
         raise ValueError(f"labels must name each of the {len(curves)} curves, got {len(labels)}")
     scaled = not absolute and all(_is_scale(curve.v_c) for curve in curves)
     both = any(np.min(curve.v_0) < 0 for curve in curves)
-    factor, unit = prefix(np.concatenate([np.ravel(curve.v_0) for curve in curves]), "m/s")
+    factor, unit = _prefix_on(ax, np.concatenate([np.ravel(curve.v_0) for curve in curves]))
     scales = [(curve.v_c, curve.full_cof) if scaled else (1 / factor, 1.0) for curve in curves]
     shades = colours(len(curves))
     with style():
@@ -136,7 +141,7 @@ def plot_curve(
             _faint(ax.axhline, 0.0)
             _faint(ax.axvline, 0.0)
         _mark_critical(ax, curves, scales, shades, both)
-        over_v_c = r"pulling velocity $v_0/v_c$" + (", $v_c$ of a forward pull" if both else "")
+        over_v_c = f"pulling velocity {OVER_V_C}" + (", $v_c$ of a forward pull" if both else "")
         ax.set_xlabel(over_v_c if scaled else rf"pulling velocity $v_0$ [{unit}]")
         over = r"$\mu/\mu_0$" if all(curve.full_cof == curve.mu_0 for curve in curves) else "over that of full slip"
         ax.set_ylabel("coefficient of friction " + (over if scaled else r"$\mu$"))
@@ -145,6 +150,15 @@ def plot_curve(
         settled, across = (np.all(curve.settled) for curve in curves), (_across(curve) is not None for curve in curves)
         _curve_legend(ax, all(settled), both, any(across))
     return ax
+
+
+def _prefix_on(ax: "Axes | None", v_0: Any) -> tuple[float, str]:
+    """Factor and unit of velocities: of the axes, if they show velocities already."""
+    shown = re.search(r"v_0\$ \[(.?)m/s\]", ax.get_xlabel()) if ax is not None and ax.has_data() else None
+    if shown is None:
+        return prefix(v_0, "m/s")
+    unit = f"{shown[1]}m/s"
+    return 1 / (scale_of(unit, "m/s") or 1.0), unit
 
 
 def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
@@ -163,7 +177,9 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
         Where data and curve were drawn.
     """
     data, curve = fitted.data, fitted.curve
-    factor, unit = prefix(data.v_0, "m/s")
+    if ax is not None and ax.has_data() and OVER_V_C in ax.get_xlabel():
+        raise ValueError("ax shows friction over v_0/v_c, and data are over v_0: plot the curve with absolute=True")
+    factor, unit = _prefix_on(ax, data.v_0)
     velocity = f"pulling velocity $v_0$ [{unit}]"
     with style():
         if ax is None:

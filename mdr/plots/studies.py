@@ -89,6 +89,7 @@ def plot_map(
     """
     from matplotlib.colors import LogNorm, Normalize
 
+    study = _without_single(study)
     across, up = _two_axes(study, x)
     order = np.ix_(np.argsort(up.values), np.argsort(across.values))
     values, status = (_over(study, up, across, one)[order] for one in (study[quantity], study.status))
@@ -116,6 +117,7 @@ def plot_curves(study: Study, quantity: str, x: str | None = None, ax: Axes | No
 
     x is the path across, by default the last. Values are in SI but for the axis itself, which takes a prefix.
     """
+    study = _without_single(study)
     across, by = _one_or_two_axes(study, x)
     values = _over(study, by, across, study[quantity]) if by else study[quantity][None]
     status = _over(study, by, across, study.status) if by else study.status[None]
@@ -235,6 +237,12 @@ def _axis(study: Study, path: str) -> Axis:
     return study.grid[list(study.axes).index(path)]
 
 
+def _without_single(study: Study) -> Study:
+    """The study without axes of one value, where it has more axes than a picture."""
+    single = {one.path: one[0] for one in study.grid if len(one) == 1} if len(study.axes) > 2 else {}
+    return study.select(single) if single else study
+
+
 def _two_axes(study: Study, x: str | None) -> tuple[Axis, Axis]:
     """The axis across and the one up, both of numbers."""
     across, up = _one_or_two_axes(study, x)
@@ -264,7 +272,14 @@ def _scale(ax: Axes, which: str, axis: Axis) -> float:
     """Set scale and label of an axis of the figure; the factor that its values are drawn with."""
     factor, unit = prefix(axis.values, axis.unit) if axis.unit not in ("", "-") else (1.0, axis.unit)
     getattr(ax, f"set_{which}label")(_name(axis.path, unit))
-    getattr(ax, f"set_{which}scale")("log" if _is_log(axis) else "linear")
+    if _is_log(axis):
+        from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+        getattr(ax, f"set_{which}scale")("log")
+        ticks = getattr(ax, f"{which}axis")
+        ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        ticks.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ticks.set_minor_formatter(NullFormatter())
     return factor
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,7 +19,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import row
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
-from mdr.tools.messages import MOST_TOLD, short
+from mdr.tools.messages import most_frequent, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.status import Status
 from mdr.tools.summary import Summarised, Summary, span
@@ -46,14 +45,13 @@ class ManyCofs(Summarised, Tabled, ArrayRecord):
         return np.asarray(self.status == Status.DONE)
 
     def _summary(self) -> Summary:
-        reasons = Counter(why for why in self.why if why).most_common(MOST_TOLD)
         return Summary(
             f"ManyCofs of {self.v_0.size} contacts",
             [
                 ("COF", span(self.cof), "average coefficient of friction"),
                 ("error", span(self.cof_error), "bound on the numerical error of the COF"),
                 ("settled", f"{int(self.settled.sum())} of {self.v_0.size}", ""),
-                *(("why", why, f"{n} times") for why, n in reasons),
+                *(("why", one, "") for one in most_frequent(self.why)),
             ],
         )
 
@@ -66,7 +64,8 @@ class ManyCofs(Summarised, Tabled, ArrayRecord):
             What `to_csv` writes.
         """
         known = {f"{one.name} [{one.unit}]": getattr(self, one.name) for one in COLUMNS}
-        return csv_text({"v_0 [m/s]": self.v_0, **known, "status": self.status.astype(int), "why": list(self.why)})
+        ends = [Status(one).name.lower() for one in self.status.tolist()]
+        return csv_text({"v_0 [m/s]": self.v_0, **known, "status": ends, "why": self.why})
 
 
 @dataclass(frozen=True)

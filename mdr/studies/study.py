@@ -5,7 +5,6 @@ Its frame is the study without its values: axes, quantities, and the case, versi
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from io import BytesIO
@@ -26,7 +25,7 @@ from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.csv_table import Tabled
-from mdr.tools.messages import MOST_TOLD, offer, short
+from mdr.tools.messages import most_frequent, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.status import Status
 from mdr.tools.summary import Printed
@@ -34,8 +33,6 @@ from mdr.tools.summary import Printed
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-_NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -290,17 +287,9 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
         lines += [f"  {axis.path}{f' [{axis.unit}]' if axis.unit else ''}: {axis.summary}" for axis in self.grid]
         lines += [f"  at {path} = {value}" for path, value in self.selected]
         counts = [f"{self.count(status)} {status.name.lower()}" for status in Status if self.count(status)]
-        return "\n".join([*lines, f"  {', '.join(counts)}", *self._most_frequent()])
-
-    def _most_frequent(self) -> list[str]:
-        """Lines with the most frequent reasons; reasons that differ in their numbers alone count as one."""
-        kinds: dict[str, list[str]] = {}
-        for why in filter(None, np.ravel(self.why).tolist()):
-            kinds.setdefault(_NUMBERS.sub("#", why), []).append(why)
-        ranked = sorted(kinds.values(), key=len, reverse=True)
-        lines = [f"    {len(alike)}: {alike[0]}" for alike in ranked[:MOST_TOLD]]
-        rest = sum(map(len, ranked[MOST_TOLD:]))
-        return lines + ([f"    {rest}: for {len(ranked) - MOST_TOLD} other reasons"] if rest else [])
+        return "\n".join(
+            [*lines, f"  {', '.join(counts)}", *(f"    {one}" for one in most_frequent(np.ravel(self.why).tolist()))]
+        )
 
 
 def frame_of(work: Work, identity: str) -> Frame:

@@ -132,8 +132,8 @@ class Header:
         blank = [i for i in free if not self.heads[i].unit]
         for one in absent:
             # a cell in its unit, of several that with its letter; or one of as many without a unit as there are columns
-            fitting = [i for i in free if self._measures(i, one)]
-            fitting.sort(key=lambda i: one.name[-1] not in re.split(r"[\W_]+", self.heads[i].name.casefold()))
+            fitting = [i for i in free if self._measures(i, one) and not self._axes(i) - {one.name[-1]}]
+            fitting.sort(key=lambda i: one.name[-1] not in self._axes(i))
             at = next(iter(fitting or ([i for i in blank if i in free] if len(blank) == len(absent) else [])), None)
             if at is None and not (one.needed or one.lone) and any(other.lone for other in more):
                 continue
@@ -144,6 +144,12 @@ class Header:
         if not absent and not bare:
             return ""
         return ", ".join(f"{name}={_dict(said)}" for name, said in (("columns", columns), ("units", units)) if said)
+
+    @property
+    def unread(self) -> list[str]:
+        """Names of the cells without a unit that are no column."""
+        heads = [self.heads[i] for i in self._free()]
+        return [one.name for one in heads if one.name and not one.unit and not one.below]
 
     # --- names ---
 
@@ -221,6 +227,10 @@ class Header:
         instead = "".join(f", or give {one.instead}" for one in absent if one.instead)
         named = "the header names" if any(head.whole for head in self.heads) else "there is no header, which names"
         return f"{named} no {names}; write {example}{instead}"
+
+    def _axes(self, index: int) -> set[str]:
+        """Letters of axes that stand as words in a cell."""
+        return set("xyz") & set(re.split(r"[\W_]+", self.heads[index].name.casefold()))
 
     # --- units ---
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 
 #: names in other words
 OTHER_WORDS = {
@@ -10,6 +11,7 @@ OTHER_WORDS = {
     "disk": "FlatPunch", "rubber": "KelvinVoigt", "kelvin": "KelvinVoigt", "zener": "StandardLinearSolid", "sine":
     "NormalOscillation", "rigid": "RigidPull", "spring": "SpringPull",
 }  # fmt: skip
+_NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 MOST_TOLD = 4  #: differences or reasons that one message tells before it counts the rest
 
 
@@ -44,3 +46,14 @@ def one_line(text: str, longest: int = 400) -> str:
     """The text as one printable line, cut where it is too long: at some five lines of a terminal."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return short(" ".join(plain.split()), longest)
+
+
+def most_frequent(reasons: Iterable[str]) -> list[str]:
+    """The most frequent of some reasons with their numbers, "" left out; those alike but for numbers count as one."""
+    kinds: dict[str, list[str]] = {}
+    for why in filter(None, reasons):
+        kinds.setdefault(_NUMBERS.sub("#", why), []).append(why)
+    ranked = sorted(kinds.values(), key=len, reverse=True)
+    lines = [f"{len(alike)}: {alike[0]}" for alike in ranked[:MOST_TOLD]]
+    rest = sum(map(len, ranked[MOST_TOLD:]))
+    return lines + ([f"{rest}: for {len(ranked) - MOST_TOLD} other reasons"] if rest else [])

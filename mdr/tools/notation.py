@@ -132,7 +132,7 @@ def number_in(cell: str) -> float:
     value = float(text) if is_number(text) else math.nan
     if math.isfinite(value):
         return value
-    raise ValueError(f"{short(text) or 'nothing'} is no number{_instead(text)}")
+    raise ValueError(f"{short(text)} is no number{_instead(text)}" if text else f"the cell is empty{_instead(text)}")
 
 
 def decimal_mark(cells: Sequence[str]) -> tuple[str, str]:

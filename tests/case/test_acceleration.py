@@ -80,6 +80,14 @@ def test_noise_is_no_motion(seed):
         mdr.PeriodicMotion.from_acceleration(instants(500, 1e-3), np.random.default_rng(seed).normal(size=500), u_z0=1)
 
 
+def test_one_wrong_sample_that_hides_a_motion_is_told():
+    t = instants(500, 1e-3)
+    a = np.sin(300 * t)
+    a[123] = -9999.0
+    with pytest.raises(ValueError, match=r"sample 124 lies 9999 m/s² off the others: leave it out"):
+        mdr.PeriodicMotion.from_acceleration(t, a, u_z0=1e-5)
+
+
 def test_friction_under_the_motion_is_that_under_the_record():
     """Sign and phase: `slide` under the motion, against `slide_record` under the depths that were accelerated.
 

@@ -339,6 +339,6 @@ def test_another_quantity_is_refused_with_every_other_fault():
         "[material] E wants Pa (or kPa, MPa, GPa, N/mm2, bar, psi), got '3 mm'",
         "[oscillation] frequency wants Hz (or mHz, kHz, MHz, rad/s, rpm), got '3 s'",
         "[oscillation] du_z must be positive, got -2e-06 (amplitude of the depth in m; a depth that does "
-        "not oscillate is a ConstantDepth)",
+        "not oscillate is a ConstantDepth, under a shake)",
         "mu_0 wants a pure number, such as 0.1 or 10%, got '1 N'",
     ]

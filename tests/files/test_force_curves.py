@@ -86,6 +86,14 @@ def test_what_a_baseline_tells_of_a_curve_is_said(tmp_path):
         read(written(tmp_path / "data.csv", z - DEPTH, air), tip="round", smoothing=0.01 * greatest)
 
 
+def test_forces_of_another_sign_or_unit_are_refused(tmp_path):
+    z, F, greatest = curve(BALL, noise=0.005, baseline=0.0)
+    with pytest.raises(ValueError, match="turn the sign of F"):
+        read(written(tmp_path / "data.csv", z, -F), tip="round", smoothing=0.01 * greatest)
+    with pytest.raises(ValueError, match=r"is the noise of the forces, which reach .* N: give it in N"):
+        read(written(tmp_path / "data.csv", z, F), tip="round", smoothing=50.0)
+
+
 def test_touch_and_baseline_that_are_given_are_taken(tmp_path):
     z, F, greatest = curve(BALL)
     path = written(tmp_path / "data.csv", z, F)

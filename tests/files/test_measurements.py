@@ -151,7 +151,7 @@ FAULTS = [
         "write 1234 without a thousands separator or, if the comma is the decimal",
     ),
     (friction, "v [m/s], mu\n0.5 mm/s, 0.1\n", "write 0.5 and the unit in the header (column v_0)"),
-    (friction, "v [m/s], mu\n1, \n", "line 2: nothing is no number, leave the line out (column cof)"),
+    (friction, "v [m/s], mu\n1, \n", "line 2: the cell is empty, leave the line out (column cof)"),
     (friction, "v [m/s], mu\n1, high\n", "line 2: high is no number"),
     (friction, 'v [m/s], mu\n1, "0.3\n2, 0.4\n3, high\n', "line 4: high is no number"),  # an open quote ends its line
     (friction, f"v [m/s], mu\n1, {'3' * 140_000}\n", "is no number (column cof)"),
@@ -166,7 +166,11 @@ FAULTS = [
     (mdr.read_moduli, "f [Hz], E' [mPa], E'' [mPa]\n1, 3, 0.3\n", "'mPa' of storage is none of Pa, kPa, MPa, GPa"),
     (mdr.read_moduli, "f [Hz], E' [MPa]\n1, 3\n", "neither E'' nor tan delta"),
     (mdr.read_moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", "need Poisson's ratio, as E = 2 (1 + nu) G"),
-    (mdr.read_record, "t [s], b [V]\n0, 1\n", "the header names a time alone; write t [s], a [m/s²], or"),
+    (
+        mdr.read_record,
+        "t [s], b [V]\n0, 1\n",
+        "the header names a time, and nothing else by a name known here; write t [s], a [m/s²], or",
+    ),
     # rows
     (mdr.read_moduli, "f [Hz], E' [MPa], E'' [MPa]\n1, 3, 1\n2, 3, -0.1\n", "line 3: loss must not be negative"),
     (profile, f"r [um], f [nm]\n{SCAN}\n10.0, 90\n", "lines 3 and 8 both have r = 1e-05 m; give one, or their mean"),

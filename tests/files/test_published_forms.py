@@ -89,6 +89,7 @@ FORMS = {
     "master curve": (moduli, "f [Hz], T [C], E' [MPa], E'' [MPa]\n1, 50, 4, 1\n1e3, 20, 8, 2\n", {"columns": {"T": ""}},
                      {"storage": [4e6, 8e6]}),
     "shear": (moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 1, 0.1\n", {"nu": 0.5}, {"storage": [3e6], "loss": [3e5]}),
+    "complex modulus": (moduli, "f [Hz], |E*| [MPa], tan delta\n1, 5, 0.75\n", {}, {"storage": [4e6], "loss": [3e6]}),
     "three that differ": (moduli, "f [Hz], E' [MPa], E'' [Pa], tan delta\n1, 3, 0.3, 0.1\n", {},
                           ("line 2: loss/storage is 1e-07, and tan_delta 0.1", 'columns={"tan_delta": ""}')),
     # arms
@@ -115,6 +116,9 @@ FORMS = {
     "force with a baseline": (force, "d [nm], F [nN]\n0, 5\n1, 5\n2, 5\n3, 6\n4, 8\n5, 11\n6, 15\n7, 20\n8, 26\n",
                               {"touch": 2e-9},
                               {"d": np.arange(7) * 1e-9, "F": np.array([0, 1, 3, 6, 10, 15, 21]) * 1e-9}),
+    "friction with its error": (friction, "v [mm/s], mu, SD\n1, 0.3, 0.01\n", {}, {"error": [0.01]}),
+    "two channels, words": (record, "Zeit (s);Beschl. Z (g);Beschl. X (g)\n0;1;0\n", {},
+                            ('"a_x": "Beschl. X", "a_z": "Beschl. Z"',)),
     "friction in per cent": (friction, "v [mm/s], mu [%], V [V]\n1, 30, 2\n", {}, {"v_0": [1e-3], "cof": [0.3]}),
 }  # fmt: skip
 
@@ -156,6 +160,7 @@ SIZES = {
     "millimetres for metres": (record, "t [s], u_z [m]\n0, 1\n1, 2\n", "u_z, read in m, is at most 2 m, above 10 mm"),
     "a scan in metres": (profile, f"r [m], f [m]\n{SCAN}\n", "r, read in m, is at most 7 m, above 1 m"),
     "friction in per cent": (friction, "v [m/s], mu\n1, 30\n", "is it in per cent"),
+    "an error by another name": (friction, "v [mm/s], mu, Streuung\n1, 0.3, 0.01\n", 'columns={"error": "Streuung"}'),
     "velocities in mm/s": (friction, "v [m/s], mu\n500, 0.3\n", "v_0, read in m/s, is at most 500 m/s"),
 }
 

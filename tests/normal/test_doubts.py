@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.case.doubts import doubts_of, edge
 from mdr.files.examples import MATERIALS, MOTIONS, PULLS, SHAPES, example
+from mdr.indenters.from_force import DEPTHS, FORCES
 from mdr.normal.resolved import with_depth
 from mdr.tools.fields import fields_of
 
@@ -73,6 +74,13 @@ ABSURD = {
     "a frequency below all data": (
         {"material": mdr.Prony(3e6, [(1e6, 1e-5), (1e6, 1e-6), (1e6, 1e-7)], 0.5)},
         "rates of 1.59e.04 to 1.59e.06 Hz, and the motion 50 Hz",
+    ),
+    "a modulus of a force curve in MPa": (
+        {
+            "indenter": mdr.FromForce(DEPTHS, FORCES, 4.0, tip="round"),
+            "oscillation": mdr.NormalOscillation(1e-6, 1e-7, 300.0),
+        },
+        "indenter: E_star = 4 Pa is no modulus of a solid",
     ),
     "k_x a million times too small": ({"pull": mdr.SpringPull(k_x=1e-3, m=0.1)}, "k_x in N/mm"),
     "grams for kilograms": (

@@ -132,6 +132,10 @@ def test_several_curves_are_drawn_as_they_are_unless_asked_otherwise():
     assert len([drawn for drawn in over.lines if drawn.get_linestyle() == ":"]) == 1
     alone = plots.plot_curve(curves[0], labels=["a"], absolute=True)
     assert_allclose(points(alone, "a")[1], curves[0].cof)
+    faster = made_up_curve(v_c=9.0, v_0=1e3 * curves[0].v_0)  # on axes that show velocities in mm/s
+    plots.plot_curve(faster, alone, ["b"])
+    assert_allclose(points(alone, "b"), [1e3 * faster.v_0, faster.cof])
+    assert "[mm/s]" in alone.get_xlabel()
 
 
 def test_too_few_labels_are_refused():
