@@ -104,7 +104,7 @@ def read_moduli(
     ----------
     path : str or path-like
         The file. Its header names the frequency (in Hz or rad/s), the storage modulus E', and the loss modulus E'' or
-        tan delta: `f [Hz], E' [MPa], tan delta`; or |E*| and tan delta.
+        tan delta: `f [Hz], E' [MPa], tan delta`; or the complex modulus `|E*|` and tan delta.
     nu : float, optional
         Poisson's ratio [-]. Only shear moduli need it, columns G' and G'': E = 2 (1 + nu) G.
     temperature : float, optional
@@ -113,7 +113,7 @@ def read_moduli(
         Units of columns whose header has none, such as {"omega": "Hz", "storage": "MPa"}.
     columns : dict of str or int, optional
         What the header calls a column, such as {"storage": "Speichermodul"}, or its number, from 1; the columns are
-        omega, storage, loss, tan_delta, |E*|, G', G'' and T. An empty name leaves a column out: {"T": ""} of a
+        omega, storage, loss, tan_delta, `|E*|`, G', G'' and T. An empty name leaves a column out: {"T": ""} of a
         master curve, whose frequencies are shifted to one temperature.
     skip : int, optional
         Lines above the header. None finds it.

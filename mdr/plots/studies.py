@@ -276,8 +276,8 @@ def _scale(ax: Axes, which: str, axis: Axis) -> float:
         from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
         getattr(ax, f"set_{which}scale")("log")
-        ticks = getattr(ax, f"{which}axis")
-        ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        ticks, few = getattr(ax, f"{which}axis"), max(axis.values) <= 100 * min(axis.values)
+        ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
         ticks.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         ticks.set_minor_formatter(NullFormatter())
     return factor
