@@ -41,7 +41,7 @@ def compile_all() -> int:
     first, todo = kinds_of_run(MATERIALS[:1]), kinds_of_run()
     beside = None if os.cpu_count() == 1 else subprocess.Popen([sys.executable, "-c", BESIDE])
     with unsaid():
-        for k, run in enumerate(progress(todo, "compiling, once on this machine", "kinds of run")):
+        for k, run in enumerate(progress(todo, "compiling, once on this machine", "kinds of run", alike=False)):
             if k == len(first) and beside is not None:
                 beside.wait()  # what it has compiled, or has not, is seen on the disk
             with silent(lambda: None):

@@ -29,10 +29,13 @@ _deadline: ContextVar[float] = ContextVar("deadline", default=float("inf"))
 _watch: ContextVar[Callable[[], None] | None] = ContextVar("watch", default=None)
 
 
-def progress(items: Iterable[T], what: str, parts: str = "", total: int | None = None, done: int = 0) -> Iterator[T]:
+def progress(
+    items: Iterable[T], what: str, parts: str = "", total: int | None = None, done: int = 0, alike: bool = True
+) -> Iterator[T]:
     """Loop over items with progress: a bar on a terminal, plain lines elsewhere; parts: what the items are called.
 
-    total: how many there are with those that are `done` before; None asks the items.
+    total: how many there are with those that are `done` before; None asks the items. alike: whether each takes about as
+    long, so that the time of some tells that of the rest.
     """
     if total is None:
         total = len(items)  # type: ignore[arg-type]
@@ -40,9 +43,12 @@ def progress(items: Iterable[T], what: str, parts: str = "", total: int | None =
         from tqdm import tqdm
 
         unit = f" {parts or 'it'}"
-        yield from tqdm(items, desc=what, total=total, initial=done, unit=unit, delay=PATIENCE, leave=False)
+        bar = None if alike else "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}]"
+        yield from tqdm(
+            items, desc=what, total=total, initial=done, unit=unit, delay=PATIENCE, leave=False, bar_format=bar
+        )
         return
-    ticker = Ticker(what, total, parts, done)
+    ticker = Ticker(what, total, parts, done, alike)
     for item in items:
         yield item
         ticker.tick()
@@ -90,8 +96,8 @@ def time_is_over() -> bool:
 class Ticker:
     """Progress line for loops of any or unknown length, at most one every ten seconds; starts at `done` parts."""
 
-    def __init__(self, what: str, total: int | None = None, parts: str = "", done: int = 0) -> None:
-        self.what, self.total, self.parts = what, total, parts
+    def __init__(self, what: str, total: int | None = None, parts: str = "", done: int = 0, alike: bool = True) -> None:
+        self.what, self.total, self.parts, self.alike = what, total, parts, alike
         self.done, self.before, self.watch = done, done, _watch.get()
         now = time.monotonic()
         self.start, self.next = now - TALLY.took, now + PATIENCE  # what is compiled once tells nothing of the rest
@@ -111,6 +117,8 @@ class Ticker:
         parts = f" {self.parts}" if self.parts else ""
         if self.total is None:
             return f"{parts} so far"
+        if not self.alike:
+            return f" of {self.total}{parts}"
         left = (now - TALLY.took - self.start) / (self.done - self.before) * (self.total - self.done)
         return f" of {self.total}{parts}, about {in_words(left)} left"
 

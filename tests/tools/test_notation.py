@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.tools.notation import UNITS, number_in, numbers_in, shown, value_in
+from mdr.tools.notation import UNITS, number_in, numbers_in, parted, scale_of, shown, value_in
 
 TURN = 2 * math.pi
 READ = {
     "m": {
         "5": 5.0, "2 um": 2e-6, "2um": 2e-6, "2 µm": 2e-6, "2 μm": 2e-6, "2e-6": 2e-6, "2e-6m": 2e-6, "1e3 nm": 1e-6,
         "0.3 cm": 3e-3, ".5 mm": 5e-4, "5. mm": 5e-3, "+4 mm": 4e-3, "-4 mm": -4e-3, "−4 mm": -4e-3, " 7 mm ": 7e-3,
-        "1E-3 m": 1e-3, "100 um": 1e-4,
+        "1E-3 m": 1e-3, "100 um": 1e-4, "3 Å": 3e-10, "2 inch": 0.0508,
     },
+    "m/s²": {"2 m/s²": 2.0, "2 g": 19.6133},
+    "1/Pa": {"2 1/Pa": 2.0, "2 1/kPa": 2e-3, "2 1/MPa": 2e-6, "2 1/GPa": 2e-9},
+    "K": {"5 K": 5.0, "5 degC": 278.15, "5 °C": 278.15, "5 C": 278.15},
     "m/s": {"10 mm/s": 0.01, "10mm/s": 0.01, "0.01": 0.01, "6 mm/min": 1e-4, "3 um/s": 3e-6, "1 m/s": 1.0,
             "-2 cm/s": -0.02},
     "rad/s": {"50 Hz": 50 * TURN, "50Hz": 50 * TURN, "20 kHz": 2e4 * TURN, "314.159": 314.159, "3 rad/s": 3.0,
@@ -24,11 +27,11 @@ READ = {
            "5 bar": 5e5, "400 psi": 400 * 0.45359237 * 9.80665 / 0.0254**2},
     "N": {"5 N": 5.0, "5mN": 5e-3, "0.1 kN": 100.0},
     "rad": {"45 deg": math.pi / 4, "45°": math.pi / 4, "0.1": 0.1, "0.1 rad": 0.1},
-    "deg": {"1.5": 1.5, "1.5 deg": 1.5},
+    "deg": {"1.5": 1.5, "1.5 deg": 1.5, "2°": 2.0, "1 rad": 360 / TURN},
     "kg": {"100 g": 0.1, "0.1": 0.1, "2 kg": 2.0},
-    "N/m": {"20 kN/m": 2e4, "20 N/mm": 2e4, "3 N/um": 3e6},
-    "N s/m": {"4 Ns/m": 4.0, "4 N s/m": 4.0, "4 N·s/m": 4.0},
-    "s": {"1 ms": 1e-3, "20us": 2e-5, "2 min": 120.0, "0.5 hours": 1800.0, "3 h": 10800.0},
+    "N/m": {"20 kN/m": 2e4, "20 N/mm": 2e4, "3 N/um": 3e6, "2 N/m": 2.0},
+    "N s/m": {"4 Ns/m": 4.0, "4 N s/m": 4.0, "4 N·s/m": 4.0, "4 N s/mm": 4e3},
+    "s": {"3 s": 3.0, "1 ms": 1e-3, "20us": 2e-5, "2 min": 120.0, "0.5 hours": 1800.0, "3 h": 10800.0},
     "1/m": {"3 1/m": 3.0, "2 1/mm": 2e3},
     "-": {"10%": 0.1, "10 %": 0.1, "0.1": 0.1},
     "m^(1-n)": {"3": 3.0},
@@ -60,6 +63,14 @@ def pairs(of):
 @pytest.mark.parametrize(("unit", "text", "value"), pairs(READ))
 def test_a_quantity_is_read_in_the_unit_of_the_library(unit, text, value):
     assert_allclose(value_in("E", text, unit), value, rtol=3e-16)
+
+
+def test_every_symbol_is_pinned():
+    """But for prefixes, whose powers others share; the marks of a pure number are no symbols."""
+    for unit, symbols in UNITS.items():
+        own = {one for one in symbols if one not in {f"{prefix}{base}" for prefix in "pnµmckMG" for base in symbols}}
+        known = {parted(text)[1] for text in READ.get(unit, {})}
+        assert {scale_of(one, unit) for one in own - {"-", "1", ""}} <= {scale_of(one, unit) for one in known}, unit
 
 
 @pytest.mark.parametrize(("unit", "text", "words"), pairs(REFUSED))

@@ -31,6 +31,11 @@ def test_long_work_speaks_in_plain_lines(capsys, clock):
     assert not any("12 of 12" in line for line in lines)
 
 
+def test_of_parts_that_differ_no_time_is_foretold(capsys, clock):
+    assert list(progress(list(range(4)), "work", "kinds", alike=False)) == list(range(4))
+    assert capsys.readouterr().err.splitlines()[0] == "work: 1 of 4 kinds"
+
+
 def test_what_was_there_before_is_counted_and_not_timed(capsys, clock):
     meter = progress(range(1881), "sweep", "chunks", 2000, done=119)
     next(meter), next(meter)
