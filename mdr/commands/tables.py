@@ -84,6 +84,9 @@ def add_options_of_material(command: argparse.ArgumentParser) -> None:
     command.add_argument("--n-arms", metavar="n", type=whole_number(1), help=arms)
     degrees = plain_number("", "a temperature in degC such as 20")
     command.add_argument("--temperature", metavar="degC", type=degrees, help="of moduli at several, those at this one")
+    of_shift = plain_number("", "a number such as 17.4")
+    shift = "constants C1 and C2 [K] of Williams, Landel and Ferry about --temperature, to which all rows are shifted"
+    command.add_argument("--wlf", metavar=("C1", "C2"), nargs=2, type=of_shift, help=shift)
     modulus = plain_number("Pa", "a modulus such as 4MPa")
     command.add_argument("--E-0", metavar="modulus", type=modulus, help="of arms that are shares: instantaneous E")
     add_reading(command)
@@ -92,8 +95,8 @@ def add_options_of_material(command: argparse.ArgumentParser) -> None:
 
 def material(args: argparse.Namespace, _: None) -> int:
     """Print the table [material] of measured moduli, relaxation or creep, or of a table of arms."""
-    options = {"n_arms": args.n_arms, "temperature": args.temperature, "E_0": args.E_0}
-    taken = {"moduli": ("n_arms", "temperature"), "arms": ("E_0",)}.get(args.of, ("n_arms",))
+    options = {"n_arms": args.n_arms, "temperature": args.temperature, "wlf": args.wlf, "E_0": args.E_0}
+    taken = {"moduli": ("n_arms", "temperature", "wlf"), "arms": ("E_0",)}.get(args.of, ("n_arms",))
     for name, value in options.items():
         if value is not None and name not in taken:
             raise WrongInput(f"--{name.replace('_', '-')} says nothing of {args.of}: leave it out")
@@ -103,7 +106,7 @@ def material(args: argparse.Namespace, _: None) -> int:
             found = read_file(partial(mdr.Prony.read, nu=args.nu, E_0=args.E_0), args.measured, args)
         else:
             reader, fit = SOURCES[args.of]
-            at = {"temperature": args.temperature} if args.of == "moduli" else {}
+            at = {"temperature": args.temperature, "wlf": args.wlf} if args.of == "moduli" else {}
             data = read_file(partial(reader, nu=args.nu, **at), args.measured, args)
             found = fit(*data, nu=args.nu, n_arms=args.n_arms)
             missed = found.misfit(*data) if args.of == "moduli" else None

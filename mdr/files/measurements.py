@@ -94,6 +94,7 @@ def read_moduli(
     *,
     nu: float | None = None,
     temperature: float | None = None,
+    wlf: tuple[float, float] | None = None,
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
@@ -109,6 +110,9 @@ def read_moduli(
         Poisson's ratio [-]. Only shear moduli need it, columns G' and G'': E = 2 (1 + nu) G.
     temperature : float, optional
         Temperature [°C] whose rows are taken, those within 0.5 K, of a file with several in a column T.
+    wlf : (float, float), optional
+        C1 [-] and C2 [K] of the equation of Williams, Landel and Ferry (1955) about `temperature`: the rows of all
+        temperatures are taken, their frequencies shifted to it, omega 10**(-C1 dT/(C2 + dT)).
     units : dict of str, optional
         Units of columns whose header has none, such as {"omega": "Hz", "storage": "MPa"}.
     columns : dict of str or int, optional
@@ -159,11 +163,27 @@ def read_moduli(
     loss = storage * found["tan_delta"] if loss is None else loss
     sign = "" if np.any(loss > 0) else "; all are: turn the sign of the column"
     require_rows(table, loss >= 0, f"loss must not be negative{sign}")
-    taken = _at_temperature(table, temperature)
-    omega, modulus = found["omega"][taken], stretch * (storage + 1j * loss)[taken]
-    _look_for_repeats(table, taken, omega, modulus, temperature is not None or "T" in (columns or {}))
+    if wlf is None:
+        taken = _at_temperature(table, temperature)
+        omega, modulus = found["omega"][taken], stretch * (storage + 1j * loss)[taken]
+        _look_for_repeats(table, taken, omega, modulus, temperature is not None or "T" in (columns or {}))
+    else:
+        omega, modulus = found["omega"] * _shift(table, temperature, wlf), stretch * (storage + 1j * loss)
     order = np.argsort(omega, kind="stable")
     return DynamicModuli(omega[order], modulus.real[order], modulus.imag[order])
+
+
+def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:
+    """What the frequency of each row is multiplied by, to be one at a temperature [°C]."""
+    if temperature is None or "T" not in table.values:
+        lack = 'a column T, such as "T [degC]"' if "T" not in table.values else "temperature=, in °C"
+        raise table.fault(f"wlf shifts all rows to one temperature: give {lack}")
+    if not isinstance(wlf, Sequence) or len(wlf) != 2:
+        raise TypeError(f"wlf must be C1 [-] and C2 [K], such as (17.4, 51.6), got {wlf!r}")
+    C_1, C_2 = positive("C1 of wlf", wlf[0]), positive("C2 of wlf", wlf[1], "in K")
+    warmer = table.values["T"] - ZEROS["degC"] - finite("temperature", temperature, "in °C")
+    require_rows(table, C_2 + warmer > 0, f"T is {C_2:.6g} K or more below temperature = {temperature:.6g} degC")
+    return np.asarray(10 ** (-C_1 * warmer / (C_2 + warmer)))
 
 
 def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]:

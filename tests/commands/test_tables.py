@@ -49,6 +49,9 @@ READ = {
     "material moduli.csv --nu 0.5 --temperature 20 --n-arms 3": lambda: mdr.Prony.fit(
         *mdr.read_moduli("moduli.csv", temperature=20), nu=0.5, n_arms=3
     ),
+    "material moduli.csv --nu 0.5 --temperature 30 --wlf 17.4 51.6": lambda: mdr.Prony.fit(
+        *mdr.read_moduli("moduli.csv", temperature=30, wlf=(17.4, 51.6)), nu=0.5
+    ),
     "material relaxation.csv --of relaxation --nu 0.4": lambda: mdr.Prony.fit_relaxation(
         *mdr.read_relaxation("relaxation.csv"), nu=0.4
     ),

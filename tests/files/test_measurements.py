@@ -72,6 +72,27 @@ def test_a_rough_profile_is_smoothed(write):
 # --- force over depth ---
 
 
+def test_moduli_at_several_temperatures_are_shifted_to_one(write):
+    """A body that is known, as a rheometer sees it: three temperatures, two decades each, make one of four decades."""
+    rubber, C_1, C_2 = mdr.Prony(2e6, [(3e6, 1e-3), (2e6, 1e-1)], 0.5), 8.86, 101.6
+    rows = []
+    for T in (0.0, 20.0, 60.0):
+        for hertz in np.geomspace(0.1, 10, 9):
+            at_20 = 2 * np.pi * hertz * 10 ** (-C_1 * (T - 20) / (C_2 + T - 20))
+            E = 0.75 * complex(rubber.dynamic_modulus(at_20))
+            rows.append(f"{hertz:.10g}, {T}, {E.real:.10g}, {E.imag:.10g}")
+    path = write("f [Hz], T [degC], E' [Pa], E'' [Pa]\n" + "\n".join(rows) + "\n")
+    omega, storage, loss = mdr.read_moduli(path, temperature=20, wlf=(C_1, C_2))
+    assert omega[-1] / omega[0] > 1e4
+    assert_allclose(storage + 1j * loss, 0.75 * rubber.dynamic_modulus(omega), rtol=1e-8)
+    for given, words in (
+        ({"wlf": (8.86, 101.6)}, "give temperature="),
+        ({"temperature": 170, "wlf": (8, 100)}, "K or more"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            mdr.read_moduli(path, **given)
+
+
 @pytest.mark.parametrize("touch", [None, 30e-6])
 def test_force_over_depth_is_a_shape(write, touch):
     before = "" if touch is None else "10, 0\n20, 0\n30, 0\n"
