@@ -363,12 +363,12 @@ def _reasons(case: SlidingContact, eq_15: float, full: float, found: MeasuredVel
 def _left_out(case: SlidingContact) -> Iterator[str]:
     """The part of the sentence about normal-tangential coupling, where it matters."""
     beta = case.material.dundurs_beta
+    springs = f"all this is of springs, which leave out normal-tangential coupling (Dundurs' beta = {beta:.2f})"
     if case.tau_0:
         if abs(beta) > STRONG:
-            yield f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f})"
+            yield springs
         return
-    rub = radial_rub(case)
-    left_out = f"the springs leave out normal-tangential coupling (Dundurs' beta = {beta:.2f}): in three dimensions"
+    rub, left_out = radial_rub(case), f"{springs}; with it, in three dimensions,"
     if is_across_alone(case):
         stiffer = stiffened_by_coupling(case.material)
         if stiffer > STRONG:
