@@ -154,4 +154,7 @@ def main() -> None:
             pickle.loads(pickle.dumps(answer))
         except Exception:  # an error that cannot be sent
             answer = RuntimeError(f"{type(answer).__name__}: {answer}")
-        send(answers, answer)
+        try:
+            send(answers, answer)
+        except BrokenPipeError:  # the process that asked is gone, and what is left in the pipe with it
+            os._exit(0)

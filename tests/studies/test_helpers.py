@@ -13,7 +13,7 @@ import pytest
 
 import mdr
 from mdr.studies import engine
-from mdr.studies.helpers import Helper, Lost, helper_for
+from mdr.studies.helpers import Helper, Lost, helper_for, receive, send
 from mdr.studies.points import compute
 
 DEPTHS = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 24).tolist()}
@@ -116,3 +116,15 @@ def test_a_helper_ends_with_the_study():
     ended.set()
     assert helper.process.wait(timeout=60) is not None
     helper.close()
+
+
+def test_a_helper_whose_asker_is_gone_ends_in_silence():
+    command = [sys.executable, "-c", "from mdr.studies import helpers; helpers.main()"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        send(process.stdin, grids.work(grids.RIGID, DEPTHS))
+        assert receive(process.stdout) is True
+        process.stdout.close()
+        send(process.stdin, range(2))
+        process.stdin.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 0
