@@ -99,7 +99,7 @@ class SlidingContact(Record, Summarised):
         if not self.oscillation.omega and (self.shake is None or self.shake.is_still):
             raise ValueError(
                 f"nothing oscillates: {self.oscillation!r} is constant, and shake = {self.shake!r}; friction is then "
-                "mu_0, without a computation; give a shake with an amplitude, or an oscillation"
+                "what it is without vibration; give a shake with an amplitude, or an oscillation"
             )
         _ = self.repeats  # refuses frequencies in no ratio
         guided = np.isinf(self.pull.across[2]) and not self.pull.is_rigid
