@@ -293,7 +293,7 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
         ("t [s], u_x, u_z [um]\n0, 1, 1\n", "u_x needs a unit"),
         ("t [s], u_z [um]\n0, 1\n", "names no u_x"),
         ("t [s], u_x [um], F_z [N]\n0, 1, 1\n0, 2, 1\n", "t must rise"),
-        ("t [s], u_x [um], F_z [N]\n0, 1, 1\n1, 2\n", "no number"),
+        ("t [s], u_x [um], F_z [N]\n0, 1, 1\n1, 2\n", "the cell is empty"),
         ("", "holds no table"),
     ],
 )
