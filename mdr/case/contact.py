@@ -72,10 +72,10 @@ class SlidingContact(Record, Summarised):
     )
     oscillation: Motion = field(metadata=facts("", "normal motion", rule=None))
     pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
-    shake: Shake | None = field(default=None, metadata=facts("", "motion in the plane besides the pull", rule=None))
+    shake: Shake | None = field(default=None, metadata=facts("", "shake in the plane, besides the pull", rule=None))
     tau_0: float = field(
         default=0.0,
-        metadata=facts("Pa", "shear strength of the face, besides", not_negative, label=r"shear strength $\tau_0$"),
+        metadata=facts("Pa", "shear strength of the face, beside mu_0", not_negative, label=r"shear strength $\tau_0$"),
     )
 
     def __post_init__(self) -> None:
@@ -125,7 +125,7 @@ class SlidingContact(Record, Summarised):
         rows = [_told(name, part) for name, part in parts if part is not None]
         rows.insert(2, ("mu_0", number(self.mu_0), "local coefficient of friction"))
         if self.tau_0:
-            rows.insert(3, ("tau_0", number(self.tau_0, "Pa"), "shear strength of the face, besides"))
+            rows.insert(3, ("tau_0", number(self.tau_0, "Pa"), "shear strength of the face, beside mu_0"))
         if not self.oscillation.knows_depth:
             return Summary("SlidingContact", [*rows, ("contact", "under a load", "mdr.resolved(case) finds its depth")])
         a = float(self.indenter.contact_radius(max(self.working_depth, 0.0)))

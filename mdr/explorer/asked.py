@@ -63,8 +63,12 @@ def half_space_of(state: State, watch: Callable[[], None] = lambda: None) -> Ite
     from mdr import half_space
     from mdr.plots.figures import svg_of
 
+    if not state.case.pull.is_rigid:
+        raise ValueError("the half-space is pulled rigidly: choose RigidPull under “What pulls in the plane”")
     with silent(watch):
         run = half_space.slide(resolved(state.case), state.v_0)
         drawn = svg_of(run.plot).partition("<svg")[2]
     told = f"On {run.cells} × {run.cells} cells of a half-space the COF is {run.cof:.4g} ± {run.cof_error:.1g}."
-    yield f'{told}<div style="overflow-x:auto"><svg style="min-width:760px;max-width:100%;height:auto" {drawn}</div>'
+    if beta := state.case.material.dundurs_beta:
+        told += f" Cells feel normal-tangential coupling (Dundurs' beta = {beta:.2f}), which springs leave out."
+    yield f'{told}<svg style="max-width:100%;height:auto" {drawn}'

@@ -15,9 +15,11 @@ from mdr.explorer.controls import Control, control_of, controls_of
 from mdr.explorer.links import meaning_of, typed
 from mdr.explorer.scripts import NAMES
 from mdr.explorer.state import State, group_values
+from mdr.tools.notation import is_number, parted
 
 GROUPED = (
-    "Groups have no unit: contacts alike in all of them have the same μ/μ<sub>0</sub> over v<sub>0</sub>/v<sub>c</sub>."
+    "Groups have no unit: contacts alike in all of them, and in c<sub>x</sub>/(m ω), have the same μ/μ<sub>0</sub> "
+    "over v<sub>0</sub>/v<sub>c</sub>."
 )
 
 Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answer is why it was refused, or ""
@@ -77,8 +79,10 @@ class Knob:
         if event.new == self._text:  # as it was, also after a refusal
             self._say("")
         else:
+            # a bare number is one in the unit that the box shows
+            text = f"{event.new} {parted(self._text)[1]}" if is_number(event.new.strip()) else event.new
             told = (self.control.name, self.control.facts.unit)
-            self._set(lambda: event.new if self.control.words else meaning_of(event.new, *told))
+            self._set(lambda: event.new if self.control.words else meaning_of(text.strip(), *told))
 
     def _set(self, value: Callable[[], Any]) -> None:
         why = self.attempt(lambda state: state.changed(self.control.path, value()))
@@ -97,7 +101,7 @@ class Board:
     """All controls."""
 
     def __init__(self, state: State, attempt: Attempt) -> None:
-        self.attempt = attempt
+        self.attempt, self.in_groups = attempt, state.in_groups
         self.built: tuple[Any, ...] = ()
         self.knobs: list[Knob] = []
         self.parts: dict[str, Any] = {slot: pn.Column(margin=0, **look.WIDE) for slot in ("", *KINDS)}
@@ -105,7 +109,7 @@ class Board:
         self.held: Any = pn.widgets.RadioButtonGroup(
             options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5), **look.WIDE
         )
-        self.held.param.watch(lambda event: attempt(lambda state: replace(state, in_groups=event.new)), "value")
+        self.held.param.watch(self._grouped, "value")
         self.names = pn.widgets.IntInput(visible=False)
         self.names.jscallback(value=NAMES)
         explained = look.html(GROUPED, look.SMALL)
@@ -113,8 +117,13 @@ class Board:
         for slot, kind in self.kinds.items():
             self.view.extend([kind.view, self.parts[slot]])
 
+    def _grouped(self, event: Any) -> None:
+        if event.new != self.in_groups:  # else it follows the state
+            self.attempt(lambda state: replace(state, in_groups=event.new))
+
     def show(self, state: State) -> None:
         """Stand at a state."""
+        self.in_groups = self.held.value = state.in_groups
         kinds = [state.value(slot) for slot in KINDS]
         built = (state.in_groups, state.v_c is None, state.case.is_shaken, *kinds, *group_values(state.case))
         if self.built != built:

@@ -81,6 +81,7 @@ class Curve:
         self.run.data = {"v_0": [], "cof": []} if run is None else {"v_0": [run.v_0 * per], "cof": [run.cof]}
         held = [] if band is None else [(0.0, band.low, band.high)]
         self.held.data = {name: [one[i] for one in held] for i, name in enumerate(("v_0", "low", "high"))}
+        self.before.data = {"v_0": [], "cof": []}
         if self.ghost is not None:
             own = 1 / (self.ghost.state.v_c or np.nan) if self.in_groups else per
             self.before.data = line_of(self.ghost.v_0 * own, self.ghost.cof)

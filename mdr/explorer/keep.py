@@ -24,14 +24,14 @@ class Keep:
     def __init__(self, go: Callable[[str], Any]) -> None:
         self.picture: Picture | None = None
         self.toml, self.python = _text("TOML", "pre"), _text("Python", "pre-wrap")
-        named = "Link to this state, as in the address bar, where back undoes"
+        named = "Link to this state, for this machine while the page is served; the browser's back undoes a change"
         self.link: Any = pn.widgets.TextInput(name=named, css_classes=["shown"], margin=5, **look.WIDE)
         back: Any = pn.widgets.TextInput(visible=False)
         back.param.watch(lambda event: event.new and go(event.new), "value")
         self.link.jscallback(value=LINK, args={"back": back})
         files = pn.FlexBox(
             _file("Case (TOML)", "case.toml", lambda: StringIO(self.toml.value)),
-            _file("Curve (SVG)", "curve.svg", lambda: self._svg(lambda picture: picture.curve.plot().figure)),
+            _file("Curve (SVG)", "curve.svg", lambda: self._svg(_curve_of)),
             _file("Springs and forces (SVG)", "run.svg", lambda: self._svg(lambda picture: picture.run.plot())),
             _copy("link", self.link), back,
         )  # fmt: skip
@@ -58,6 +58,12 @@ class Keep:
 def _complete(picture: Picture) -> Picture:
     """The picture with its run and a curve whose error is bounded."""
     return picture if picture.run and picture.curve else [*pictures_of(picture.state)][-1]
+
+
+def _curve_of(picture: Picture) -> Any:
+    """The figure of friction over velocity, with the axes of the page."""
+    assert picture.curve is not None
+    return picture.curve.plot(absolute=not picture.state.in_groups).figure
 
 
 def _file(label: str, name: str, make: Callable[[], Any]) -> Any:

@@ -21,14 +21,16 @@ from mdr.explorer.links import state_of
 from mdr.explorer.over_period import OverPeriod, forces_legend, springs_legend
 from mdr.explorer.pictures import Picture, pictures_of
 from mdr.explorer.state import State
-from mdr.given.case_file import parse_case
+from mdr.given.case_file import parse_said
 from mdr.march.periodic.steady import LEAST_ACCURATE
 from mdr.tools.compiling import TALLY
+from mdr.tools.notation import shown
 
 COMPUTING = "computing …"
 COMPILING = "compiling, once on this machine and for a quarter of a minute: {} functions so far …"
 FIRST_SIGHT = "first sight, its error is not bounded yet"
-BOUNDED = f"error of friction ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>, where settled; hollow points are not"
+BOUNDED = f"error of friction at the points ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>; hollow ones are not settled"
+LOAD = "load = {}: the page holds the depth at which it rests, so that the load changes with all that is changed here"
 
 
 class Page:
@@ -89,9 +91,15 @@ class Page:
             return
 
         def loaded(state: State) -> State:
-            return replace(State.of(parse_case(data.decode("utf-8-sig"), name)), in_groups=state.in_groups)
+            said = parse_said(data.decode("utf-8-sig"), name)
+            held.update(said.held)
+            self.curve.complete = None  # the curve of another contact is none to compare with
+            return replace(State.of(said.case), in_groups=state.in_groups)
 
-        self.alert.object = look.refused(self.attempt(loaded))
+        held: dict[str, Any] = {}
+        why = self.attempt(loaded)
+        lost = look.doubted(LOAD.format(shown(held["load"], "N"))) if "load" in held and not why else ""
+        self.alert.object = look.refused(why) or lost
 
     def _go(self, query: str) -> None:
         """Take the state of a link, as the browser goes back and forth."""

@@ -27,7 +27,7 @@ TITLES = {
     "indenter": "the shape that is pressed in; its fields follow",
     "material": "the half-space",
     "pull": "what drags it; a rigid pull without this table",
-    "shake": "motion in the plane besides the pull",
+    "shake": "shake in the plane, besides the pull",
 }
 
 

@@ -59,7 +59,7 @@ class Said(NamedTuple):
 
 def read_said(path: str | PathLike[str]) -> Said:
     """The sliding contact of a TOML file, and what holds whatever else varies. Raises CaseFileError."""
-    return _said(read_text(path), fsdecode(path))
+    return parse_said(read_text(path), fsdecode(path))
 
 
 def parse_case(text: str, source: str = "<string>") -> SlidingContact:
@@ -93,7 +93,7 @@ def parse_case(text: str, source: str = "<string>") -> SlidingContact:
     """
     if not isinstance(text, str):
         raise TypeError(f"text must be a string of TOML, got {text!r}")
-    return _as_written(_said(text, source))
+    return _as_written(parse_said(text, source))
 
 
 def _as_written(said: Said) -> SlidingContact:
@@ -104,7 +104,8 @@ def _as_written(said: Said) -> SlidingContact:
     return said.case
 
 
-def _said(text: str, source: str) -> Said:
+def parse_said(text: str, source: str) -> Said:
+    """The same of a TOML text."""
     content = parse_toml(text, source)
     with told(f"{source}: "):
         return case_of(content)

@@ -18,7 +18,7 @@ class KelvinVoigt(OneBody):
     tau: float = field(
         metadata=facts(
             "s",
-            "relaxation time gamma/k",
+            "relaxation time, damping over stiffness",
             not_negative,
             label=r"relaxation time $\tau$",
             note="relaxation time in s",

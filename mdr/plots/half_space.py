@@ -40,27 +40,28 @@ def plot_half_space(run: Any, instant: float | None = None) -> Figure:
         raise ValueError(f"instant must lie between 0 and 1, a share of the period, got {instant!r}")
     shares = (0.25, 0.5, 0.75, 1.0) if instant is None else (instant,)  # of the period
     length, pressure = prefix(run.x, "m"), prefix(run.pressure, "Pa")
-    size = (11.4, 3.5) if instant is None else (5.8, 5.4)
+    side, size = (2, (7.2, 6.9)) if instant is None else (1, (5.8, 5.4))
     with style():
-        fig, panels = subplots(1, len(shares), sharex=True, sharey=True, squeeze=False, figsize=size)
-        for ax, share in zip(panels[0], shares, strict=True):
+        fig, panels = subplots(side, side, sharex=True, sharey=True, squeeze=False, figsize=size)
+        for ax, share in zip(panels.flat, shares, strict=True):
             colour = _draw_instant(ax, run, round(share * run.t.size) - 1, length[0], pressure[0])
-            ax.set_title(f"{share:.3g} of the period")
+            ax.set_title(f"{share:.3g} of the period\nafter the least depth")
+        for ax in panels[-1]:
             ax.set_xlabel(rf"$x$ [{length[1]}], pull $\rightarrow$")
-        panels[0, 0].set_ylabel(f"$y$ [{length[1]}]")
-        fig.colorbar(colour, ax=panels[0], label=f"pressure [{pressure[1]}]", shrink=0.8, pad=0.02)
-        fig.suptitle(_told(run, wide=instant is None), fontsize=10.5)
+        for ax in panels[:, 0]:
+            ax.set_ylabel(f"$y$ [{length[1]}]")
+        fig.colorbar(colour, ax=panels, label=f"pressure [{pressure[1]}]", shrink=0.7, pad=0.02)
+        fig.suptitle(_told(run), fontsize=10.5)
     return fig
 
 
-def _told(run: Any, wide: bool) -> str:
-    """What to see, in one line or two."""
-    space = " " if wide else "\n"
+def _told(run: Any) -> str:
+    """What to see, in two lines."""
     across = f", {run.cof_y / run.full_cof:.3f} across" if abs(run.cof_y) > SEEN * run.full_cof else ""
     full = r"$\mu_0$" if run.full_cof == run.mu_0 else "that of full slip"
     return (
         f"Mean friction over {full}: {run.cof / run.full_cof:.3f}{across}. Arrows: traction on the surface."
-        f"{space}Inside the orange line cells stick, hatched cells slip."
+        "\nInside the orange line cells stick, hatched cells slip."
     )
 
 
@@ -71,7 +72,7 @@ def _draw_instant(ax: Axes, run: Any, step: int, length: float, pressure: float)
     touching = p > 0
     colour = ax.pcolormesh(
         edges_of(x), edges_of(y), np.where(touching, pressure * p, np.nan).T,
-        cmap="Blues", vmin=0, vmax=1.5 * pressure * run.pressure.max(), rasterized=True,
+        cmap=_paler("Blues"), vmin=0, vmax=pressure * run.pressure.max(), rasterized=True,
     )  # fmt: skip
     if np.any(slips := touching & ~stick):
         hatch = ax.contourf(x, y, slips.T.astype(float), levels=[0.5, 1.5], colors="none", hatches=["////"])
@@ -82,6 +83,13 @@ def _draw_instant(ax: Axes, run: Any, step: int, length: float, pressure: float)
     _arrows(ax, x, y, run.q_x[step], run.q_y[step], touching, float(np.hypot(run.q_x, run.q_y).max()) or 1.0)
     ax.set_aspect("equal")
     return colour
+
+
+def _paler(name: str) -> Any:
+    """A scale of colours without its darkest third, on which arrows are seen."""
+    import matplotlib as mpl
+
+    return mpl.colors.ListedColormap(mpl.colormaps[name](np.linspace(0, 2 / 3, 256)))
 
 
 def _arrows(

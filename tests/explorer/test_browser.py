@@ -83,7 +83,7 @@ def test_the_phase_moves_the_springs_and_nothing_else(browser):
     ("path", "text", "words"),
     [
         ("mu_0", "rough", "mu_0 wants a pure number, such as 0.1 or 10%, got 'rough'"),
-        ("oscillation.u_z0", "-1", "the indenter never touches"),
+        ("oscillation.u_z0", "-30", "the indenter never touches"),
         ("material.E", "3 mm", "E wants Pa (or kPa, MPa, GPa, N/mm2, bar, psi), got '3 mm'"),
     ],
 )
@@ -108,7 +108,7 @@ def test_groups_are_held(browser):
     browser.button("dimensionless groups")
     browser.until(lambda: browser.find(named("slider", "alpha")))
     alpha = browser.value("alpha")
-    browser.type("oscillation.u_z0", "30e-6")
+    browser.type("oscillation.u_z0", "30")  # in the unit that the box shows
     browser.until(lambda: "u_z0=3e-05" in browser.state())
     assert browser.value("alpha") == alpha
 
@@ -121,6 +121,13 @@ def test_the_link_restores_the_state(browser):
     assert browser.curve() == before
     browser.until(lambda: browser.state() == state)
     assert browser.find(named("slider", "alpha"))
+
+
+def test_a_file_with_a_load_says_that_the_page_holds_the_depth(browser):
+    path = Path(browser.folder / "load.toml")
+    path.write_text(mdr.write_case(CASE).replace("u_z0 = 2e-05", 'load = "0.3 N"'), encoding="utf-8")
+    browser.inside(named("upload", "case"), "input[type=file]").send_keys(str(path))
+    browser.until(lambda: any("load = 300 mN: the page holds the depth" in line for line in browser.text(".doubted")))
 
 
 def test_a_wrong_link_is_refused_with_words(browser):
@@ -138,7 +145,7 @@ def test_the_case_is_downloaded_and_loaded_again(browser):
     browser.until(path.exists)
     case = browser.until(lambda: path.read_text(encoding="utf-8") and mdr.read_case(path))
     assert case == mdr.parse_case(mdr.write_case(CASE).replace("a = 0.001", "a = 0.002"))
-    browser.type("indenter.a", "3e-3")
+    browser.type("indenter.a", "3")
     browser.until(lambda: "indenter.a=0.003" in browser.state())
     browser.inside(named("upload", "case"), "input[type=file]").send_keys(str(path))
     browser.until(lambda: "indenter.a=0.002" in browser.state())
