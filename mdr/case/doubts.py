@@ -35,8 +35,6 @@ LEAST_MU_0 = 1e-3  #: a joint, and ice that melts, are above it
 MOST_G = 1e6  #: acceleration over that of gravity; an ultrasonic horn reaches some 1e5
 LEAST = 5e-4  #: amplitude over mean depth, chi and omega tau that have next to no effect
 HEAVIEST = 1e4  #: weight of the body over the mean load
-MEASURED = 3  #: arms from which on a material is a fit, whose times are those of its data
-FAR = 10.0  #: times the rate of the fastest arm, or over that of the slowest, beyond which there were no data
 MOST_DAMPED = 10.0  #: damping ratio c_x/(2 sqrt(k_x m)) of the body
 
 
@@ -186,14 +184,6 @@ def _of_material(known: SlidingContact) -> Iterator[str]:
             f"omega tau = {T:.3g} is the loss tangent of this Kelvin body, which has next to no effect: is tau or the "
             "frequency in another unit?"
         )
-    rates = sorted(1 / tau_j for _, tau_j in known.material.contact_arms)
-    for omega in frequencies(known) if len(rates) >= MEASURED and not known.material.tau else ():
-        if not rates[0] / FAR <= omega <= FAR * rates[-1]:
-            low, high, here = (one / (2 * np.pi) for one in (rates[0], rates[-1], omega))
-            yield (
-                f"the arms of the material have rates of {low:.3g} to {high:.3g} Hz, and the motion {here:.3g} Hz, "
-                "where all of them are stiff, or have relaxed: was the material measured at this frequency?"
-            )
 
 
 def wavelength(known: SlidingContact, density: float) -> float:

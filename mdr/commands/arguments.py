@@ -6,7 +6,8 @@ import argparse
 import math
 import re
 import shlex
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeVar
 
 import mdr
@@ -72,10 +73,6 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
-#: arguments of the readers, which are options of the commands
-READING = ("columns", "units", "rate", "temperature", "smoothing", "nu", "part", "touch", "tip", "kinks", "apex", "E_0")
-
-
 def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> None:
     """What a CSV file does not say of itself; of one over time its rate too."""
     for name, value, what in (
@@ -92,28 +89,32 @@ def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> N
 
 
 def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
-    """What a reader of the library makes of a CSV file. A refusal names the options in the place of its arguments."""
+    """What a reader of the library makes of a CSV file; what it says names options in the place of its arguments."""
     given = {"columns": dict(args.columns), "units": dict(args.units), "skip": args.skip}
     given |= {"rate": args.rate} if hasattr(args, "rate") else {}
-    try:
-        return read(path, **given)
-    except ValueError as refusal:
-        raise WrongInput(in_options(str(refusal))) from None
+    with warnings.catch_warnings(record=True) as told:
+        try:
+            found = read(path, **given)
+        except ValueError as refusal:
+            raise WrongInput(in_options(str(refusal), vars(args))) from None
+    for one in told:
+        warnings.warn(in_options(str(one.message), vars(args)), one.category)
+    return found
 
 
-def in_options(message: str) -> str:
+def in_options(message: str, options: Iterable[str]) -> str:
     """A message in which arguments of a reader, as columns={"t": 1}, are options, --columns t=1."""
 
+    def pairs(given: re.Match[str]) -> str:
+        found = re.findall(r'"([^"]*)": (?:"([^"]*)"|([^,"]+))', given[2])
+        return " ".join([f"--{given[1]}", *(shlex.quote(f"{name}={word or bare}") for name, word, bare in found)])
+
     def option(given: re.Match[str]) -> str:
-        pairs = re.findall(r'"([^"]*)": (?:"([^"]*)"|([^,"]+))', given[2])
-        return " ".join([f"--{given[1]}", *(shlex.quote(f"{name}={word or bare}") for name, word, bare in pairs)])
+        value = given[2].strip('()"').replace(",", " ")
+        return " ".join([f"--{given[1].replace('_', '-')}", *value.split()]).removesuffix(" True")
 
-    message = re.sub(r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?", option, message)
-    return re.sub(rf'\b({"|".join(READING)})=("?)([\w.+-]*)\2', _option, message)
-
-
-def _option(given: re.Match[str]) -> str:
-    return f"--{given[1].replace('_', '-')} {given[3]}".rstrip()
+    message = re.sub(r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?", pairs, message)
+    return re.sub(rf'\b({"|".join(options)})=(\([^()]*\)|"[^"]*"|[\w.+-]*)', option, message)
 
 
 def _pair(text: str) -> tuple[str, str]:

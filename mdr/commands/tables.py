@@ -89,21 +89,21 @@ def add_options_of_material(command: argparse.ArgumentParser) -> None:
     command.add_argument("--wlf", metavar=("C1", "C2"), nargs=2, type=of_shift, help=shift)
     modulus = plain_number("Pa", "a modulus such as 4MPa")
     command.add_argument("--E-0", metavar="modulus", type=modulus, help="of arms that are shares: instantaneous E")
+    command.add_argument("--G-0", metavar="modulus", type=modulus, help="the same in shear")
     add_reading(command)
     command.epilog = "The table [material] goes into a case file."
 
 
 def material(args: argparse.Namespace, _: None) -> int:
     """Print the table [material] of measured moduli, relaxation or creep, or of a table of arms."""
-    options = {"n_arms": args.n_arms, "temperature": args.temperature, "wlf": args.wlf, "E_0": args.E_0}
-    taken = {"moduli": ("n_arms", "temperature", "wlf"), "arms": ("E_0",)}.get(args.of, ("n_arms",))
-    for name, value in options.items():
-        if value is not None and name not in taken:
+    taken = {"moduli": ("n_arms", "temperature", "wlf"), "arms": ("E_0", "G_0")}.get(args.of, ("n_arms",))
+    for name in ("n_arms", "temperature", "wlf", "E_0", "G_0"):
+        if getattr(args, name) is not None and name not in taken:
             raise WrongInput(f"--{name.replace('_', '-')} says nothing of {args.of}: leave it out")
     missed: float | None = None
     with refusals():
         if args.of == "arms":
-            found = read_file(partial(mdr.Prony.read, nu=args.nu, E_0=args.E_0), args.measured, args)
+            found = read_file(partial(mdr.Prony.read, nu=args.nu, E_0=args.E_0, G_0=args.G_0), args.measured, args)
         else:
             reader, fit = SOURCES[args.of]
             at = {"temperature": args.temperature, "wlf": args.wlf} if args.of == "moduli" else {}

@@ -92,9 +92,10 @@ class Page:
 
         def loaded(state: State) -> State:
             said = parse_said(data.decode("utf-8-sig"), name)
+            after = replace(State.of(said.case), in_groups=state.in_groups)
             held.update(said.held)
             self.curve.complete = None  # the curve of another contact is none to compare with
-            return replace(State.of(said.case), in_groups=state.in_groups)
+            return after
 
         held: dict[str, Any] = {}
         why = self.attempt(loaded)

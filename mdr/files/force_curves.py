@@ -91,13 +91,15 @@ def _doubt(table: Table, F: Array, d: Array, touch: float) -> None:
     noise = 1.05 * float(np.median(np.abs(np.diff(F[early]))))  # the standard deviation, of normal noise
     x = (d - d[early].mean()) / np.ptp(d[early])
     drift = float(x[early] @ F[early] / (x[early] @ x[early]))  # of a straight line, from end to end of what is early
-    pull = float((F[early].mean() + drift * x - F).max())
+    drifts = abs(drift) > max(6 * noise * np.sqrt(12 / n), 0.01 * most)
+    near = d <= touch + np.ptp(d[early])  # farther off the line is not known
+    pull = float((F[early].mean() + drifts * drift * x - F)[near].max())
     if pull > max(8 * noise, 0.01 * most):
         warn_outside(
             f"{table.source}: forces down to -{pull:.2g} N pull: of an adhesive contact, which this library does not "
             "know, the shape comes out wrong"
         )
-    elif abs(drift) > max(6 * noise * np.sqrt(12 / n), 0.01 * most):
+    elif drifts:
         warn_outside(
             f"{table.source}: the force drifts by {drift:.2g} N before the touch, which shifts what is found of it: "
             "take the straight line off the forces, and give touch= and baseline=0"

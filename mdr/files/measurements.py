@@ -31,6 +31,7 @@ from mdr.tools.warned import warn_outside
 LIKELY_MODULUS = (200.0, 2e12)  #: [Pa], from soft gels to beyond diamond
 FASTEST = (0.0, 1e7)  #: acceleration [m/s²], of 100 µm at 50 kHz
 UNEVEN = 0.1  #: share of a step that times may be off even ones
+MOST_SHIFTED = 15.0  #: decades by which a frequency is shifted up
 WITHIN = 0.5  #: [K], that readings at one temperature may be off it
 MOST_BYTES = 2**27  #: of a table
 PROFILE = (
@@ -80,11 +81,11 @@ class DynamicModuli(NamedTuple):
 
 def read_table(path: str | PathLike[str], columns: Sequence[Column], reading: Reading) -> Table:
     """The columns in a CSV file."""
-    text, said = _text_of(path)
+    text, said = text_of(path)
     return table_of(text, fsdecode(path), columns, reading, said)
 
 
-def _text_of(path: str | PathLike[str]) -> tuple[str, Any]:
+def text_of(path: str | PathLike[str]) -> tuple[str, Any]:
     """The text of a file, and what is said of its letters."""
     return decoded(read_bytes(path, MOST_BYTES, "table"))
 
@@ -178,12 +179,19 @@ def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:
     if temperature is None or "T" not in table.values:
         lack = 'a column T, such as "T [degC]"' if "T" not in table.values else "temperature=, in °C"
         raise table.fault(f"wlf shifts all rows to one temperature: give {lack}")
-    if not isinstance(wlf, Sequence) or len(wlf) != 2:
+    if np.shape(wlf) != (2,):
         raise TypeError(f"wlf must be C1 [-] and C2 [K], such as (17.4, 51.6), got {wlf!r}")
     C_1, C_2 = positive("C1 of wlf", wlf[0]), positive("C2 of wlf", wlf[1], "in K")
-    warmer = table.values["T"] - ZEROS["degC"] - finite("temperature", temperature, "in °C")
-    require_rows(table, C_2 + warmer > 0, f"T is {C_2:.6g} K or more below temperature = {temperature:.6g} degC")
+    warmer = _celsius(table) - finite("temperature", temperature, "in °C")
+    far = f"T is too far below temperature = {temperature:.6g} degC for these constants, a glass: leave such rows out"
+    require_rows(table, (C_2 + warmer > 0) & (C_1 * -warmer < MOST_SHIFTED * (C_2 + warmer)), far)
     return np.asarray(10 ** (-C_1 * warmer / (C_2 + warmer)))
+
+
+def _celsius(table: Table) -> Array:
+    """The temperatures in °C."""
+    require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
+    return table.values["T"] - ZEROS["degC"]
 
 
 def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]:
@@ -194,8 +202,7 @@ def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]
         if temperature is not None:
             raise table.lacks("no temperature", "f [Hz], T [degC], E' [MPa], E'' [MPa]", "T")
         return np.arange(len(table.lines))
-    require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
-    T = table.values["T"] - ZEROS["degC"]
+    T = _celsius(table)
     known = np.sort(T)
     there = ", ".join(f"{part.mean():.6g}" for part in np.split(known, np.flatnonzero(np.diff(known) > WITHIN) + 1))
     if temperature is None:
@@ -299,7 +306,7 @@ def read_record(
     """
     wanted = MOTION if rate is None else tuple(one for one in MOTION if one is not TIME)
     step = None if rate is None else 1 / positive("rate", rate, "in Hz")
-    text, said = _text_of(path)
+    text, said = text_of(path)
     table = table_of(text, fsdecode(path), wanted, Reading(units, columns, skip), said)
     record = table.values
     if not record.keys() - {"t"}:
@@ -328,7 +335,7 @@ def _doubt_rate(text: str, source: str, reading: Reading, step: float) -> None:
         t = table_of(text, source, (TIME,), reading).values["t"]
     taken, rounded, n = float(np.ptp(t)), np.diff(np.unique(t)).min(initial=np.inf), t.size - 1
     if abs(taken - step * n) - rounded > 0.01 * step * n:
-        warn_outside(f"{source}: its times step by {taken / n:.4g} s, rate by {step:.4g} s: the rate is taken")
+        warn_outside(f"{source}: its times last {taken:.4g} s, at this rate {step * n:.4g} s: the rate is taken")
 
 
 def _of_time(given: Mapping[str, Any] | None) -> dict[str, Any]:

@@ -10,31 +10,34 @@ velocities the other way are negative.
 
 from __future__ import annotations
 
+import warnings
+from contextlib import suppress
 from dataclasses import dataclass
-from os import PathLike
+from itertools import product
+from os import PathLike, fsdecode
 
 import numpy as np
 
 from mdr.case.doubts import GREATEST_MU_0
-from mdr.files.measurements import read_table
+from mdr.files.measurements import text_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Units
+from mdr.tools.csv_table import Columns, Reading, Units, table_of
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 from mdr.tools.warned import warn_outside
 
+_WORDS = ("error", "err", "std", "sd", "sem", "sigma", "uncertainty")
+_OF = tuple(f"{a} {b}" for one, two in product(("cof", "mu", "friction"), _WORDS) for a, b in ((one, two), (two, one)))
+ERRORS = (*_WORDS, *_OF, "error bar", "std dev", "standard deviation", "standard error", "u(mu)")
 COLUMNS = (
     Column(
         "v_0", ("v", "velocity", "speed", "sliding velocity", "sliding speed"), "m/s", lone=True, likely=(0.0, 100.0)
     ),
     Column("cof", ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"), "-"),
-    Column("error", (
-        "cof_error", "mu_error", "mu_err", "err", "error bar", "sigma", "std", "std dev", "sd", "standard deviation",
-        "sem", "standard error", "uncertainty", "u(mu)",
-    ), "-", needed=False),
-)  # fmt: skip
+    Column("error", ERRORS, "-", needed=False),
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -115,12 +118,18 @@ def read_friction_data(
     >>> mdr.read_friction_data("measured.csv").v_0
     array([0.0005, 0.001 ])
     """
-    table = read_table(path, COLUMNS, Reading(units, columns, skip))
-    if "error" not in table.values and "error" not in (columns or {}) and (others := table.header.unread):
-        say = f'columns={{"error": "{others[-1]}"}}'
-        warn_outside(
-            f"{table.source}: {', '.join(others)} left alone, and no error known: if {others[-1]} is it, say {say}"
-        )
+    (text, said), maybe = text_of(path), []
+    table = table_of(text, fsdecode(path), COLUMNS, Reading(units, columns, skip), said)
+    if "error" not in table.values and "error" not in (columns or {}):
+        for name in table.header.unread:
+            with suppress(ValueError), warnings.catch_warnings(action="ignore"):
+                reading = Reading(units, {**(columns or {}), "error": name}, skip)
+                error = table_of(text, table.source, COLUMNS, reading).values["error"]
+                if np.all((error > 0) & (error < table.values["cof"])):
+                    maybe.append(name)
+    if maybe:
+        say = f'columns={{"error": "{maybe[0]}"}}'
+        warn_outside(f"{table.source}: no error is known; if {' or '.join(maybe)} is that of the COF, say {say}")
     try:
         return FrictionData(**table.values)
     except ValueError as refusal:

@@ -23,7 +23,7 @@ from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, not_ascend
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
-from mdr.tools.csv_table import Columns, Reading, Units
+from mdr.tools.csv_table import Columns, Reading, Units, warn_of_size
 from mdr.tools.fields import facts
 
 
@@ -156,13 +156,16 @@ class FromForce(Indenter):
         0.0002121...
         """
         from mdr.files.force_curves import force_points
+        from mdr.files.measurements import LIKELY_MODULUS
 
         power = TIPS[_tip("tip", tip)]
         d, F = force_points(path, Reading(units, columns, skip), part, touch, baseline, power)
         try:
-            return cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
+            shape = cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:
             raise fault(fsdecode(path), str(refusal)) from None
+        warn_of_size("E_star", shape.E_star, LIKELY_MODULUS, "Pa")
+        return shape
 
     @property
     def kinks(self) -> tuple[float, ...]:

@@ -22,6 +22,7 @@ from mdr.tools.notation import listed, scale_of
 _HEAD = re.compile(
     r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))?"
 )
+QUANTITIES = ("COF", "cof", "mu", "μ", "µ", "friction")  #: of which a pure number in brackets says that it is
 SPELLINGS = 4  #: how well a name fits, best first
 FITS, BARE, MISFITS = range(3)  #: a unit of the column, none where one is needed, another
 
@@ -87,7 +88,8 @@ class Head(NamedTuple):
         """The unit behind one of these names; brackets that belong to the name are none."""
         name, whole = (_spelling(one, names) for one in (self.name, self.whole))
         is_name = whole is not None and (name is None or whole <= name)
-        own = self.unit if column.measured_in(self.unit) or not is_name else ""
+        is_quantity = column.unit == "-" and self.unit in QUANTITIES  # as in SD (COF)
+        own = self.unit if column.measured_in(self.unit) or not (is_name or is_quantity) else ""
         return own or self.below
 
 
@@ -149,7 +151,7 @@ class Header:
     def unread(self) -> list[str]:
         """Names of the cells without a unit that are no column."""
         heads = [self.heads[i] for i in self._free()]
-        return [one.name for one in heads if one.name and not one.unit and not one.below]
+        return [one.name for one in heads if one.name and {one.unit, one.below} <= {"", "-", "1", "%"}]
 
     # --- names ---
 

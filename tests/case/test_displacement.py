@@ -1,5 +1,7 @@
 """Accelerations integrated above a high-pass: a burst, the filter of scipy, a tone with drift."""
 
+import warnings
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -29,8 +31,12 @@ def test_a_burst_is_integrated():
 def test_a_vibration_below_the_high_pass_is_told():
     t = np.arange(4001) * 5e-4
     tone = np.sin(2 * np.pi * 80 * t)
-    for drift in (3.0 * t, 50.0 * t, 30.0 * t**2, 10.0 * (t > 1)):  # what drifts is meant to go, in silence
-        mdr.displacement_of(t, tone + drift, high_pass=20.0)
+    burst, swell = tone * (t < 0.1), 0.02 * np.sin(2 * np.pi * 10 * t)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", mdr.PlausibilityWarning)
+        for drift in (3.0 * t, 50.0 * t, 30.0 * t**2):  # what drifts is meant to go, in silence
+            mdr.displacement_of(t, tone + drift, high_pass=20.0)
+        mdr.displacement_of(t, burst + swell, high_pass=20.0)  # most is in the burst
     with pytest.warns(mdr.PlausibilityWarning, match=r"at [78][90].* Hz, and is left out: lower high_pass"):
         mdr.displacement_of(t, tone, high_pass=150.0)
 

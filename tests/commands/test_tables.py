@@ -73,6 +73,18 @@ def test_a_table_is_what_python_reads(command, capsys):
 
 
 @pytest.mark.usefixtures("folder")
+@pytest.mark.filterwarnings("always::mdr.PlausibilityWarning")
+def test_what_is_told_of_a_file_names_options(capsys):
+    d = np.linspace(-4, 12, 161)
+    rows = np.column_stack([d, 1 + 0.4 * np.maximum(d, 0) ** 1.5])
+    np.savetxt("all.csv", rows, header="d [um], F [mN]", comments="", delimiter=",")
+    assert main(["indenter", "all.csv", "--E-star", "4MPa"]) == 0
+    said = capsys.readouterr().err
+    assert "are taken, as found" in said
+    assert "with --tip sharp the touch would be" in said
+
+
+@pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize(
     ("command", "words"),
     [
@@ -81,7 +93,7 @@ def test_a_table_is_what_python_reads(command, capsys):
         ("indenter scan.csv --smoothing 2N", "--smoothing wants m (or cm"),
         ("indenter scan.csv --apex 9um", "give the place of the tip as --apex, or add"),
         ("material moduli.csv --nu 0.5 --temperature 50", "no moduli within 0.5 K of temperature = 50 degC"),
-        ("material arms.csv --of arms --nu 0.4", "give --E-0 or G_0= in Pa"),
+        ("material arms.csv --of arms --nu 0.4", "give --E-0 or --G-0 in Pa"),
         ("material creep.csv --of creep --nu 0.4 --temperature 20", "--temperature says nothing of creep"),
     ],
 )

@@ -81,6 +81,14 @@ def test_what_a_baseline_tells_of_a_curve_is_said(tmp_path):
         said = [str(one.message) for one in told if "taken, as found" not in str(one.message)]
         assert [bool(re.search(words, one)) for one in said] == [True] * bool(words), (noise, share)
     z, F, greatest = curve(BALL, noise=0.005)
+    for seed in range(20):  # few points before the touch: noise is no pull
+        z = np.linspace(0.95 * TOUCH, TOUCH + DEPTH, 1000)
+        noise = 0.003 * greatest * np.random.default_rng(seed).normal(size=z.size)
+        forces = np.asarray(BALL.force(z - TOUCH, E_STAR)) + noise
+        with pytest.warns(mdr.PlausibilityWarning) as told:
+            read(written(tmp_path / "data.csv", z, forces), tip="round", touch=TOUCH, smoothing=0.01 * greatest)
+        assert not any("pull" in str(one.message) for one in told)
+    z, F, greatest = curve(BALL, noise=0.005)
     air = greatest * (0.05 + 0.005 * np.random.default_rng(3).normal(size=z.size))
     with pytest.raises(ValueError, match="nothing is touched"):
         read(written(tmp_path / "data.csv", z - DEPTH, air), tip="round", smoothing=0.01 * greatest)

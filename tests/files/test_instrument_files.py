@@ -281,7 +281,7 @@ def test_a_rate_beside_times_that_say_another_is_told(tmp_path):
         if head == "Stamp":
             with pytest.raises(ValueError, match="but a time of day: write seconds, or of even steps give rate="):
                 mdr.read_record(path, columns={"t": "Stamp"}, units={"t": "s"})
-        words = "step by 0.0005 s, rate by 0.001 s: the rate is taken"
+        words = "its times last 0.004 s, at this rate 0.008 s: the rate is taken"
         assert [words in str(one.message) for one in said] == [True] * told
 
 

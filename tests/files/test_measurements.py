@@ -87,7 +87,7 @@ def test_moduli_at_several_temperatures_are_shifted_to_one(write):
     assert_allclose(storage + 1j * loss, 0.75 * rubber.dynamic_modulus(omega), rtol=1e-8)
     for given, words in (
         ({"wlf": (8.86, 101.6)}, "give temperature="),
-        ({"temperature": 170, "wlf": (8, 100)}, "K or more"),
+        ({"temperature": 170, "wlf": (8, 100)}, "too far below"),
     ):
         with pytest.raises(ValueError, match=words):
             mdr.read_moduli(path, **given)

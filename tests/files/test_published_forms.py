@@ -116,6 +116,7 @@ FORMS = {
     "force with a baseline": (force, "d [nm], F [nN]\n0, 5\n1, 5\n2, 5\n3, 6\n4, 8\n5, 11\n6, 15\n7, 20\n8, 26\n",
                               {"touch": 2e-9},
                               {"d": np.arange(7) * 1e-9, "F": np.array([0, 1, 3, 6, 10, 15, 21]) * 1e-9}),
+    "friction with an error of the COF": (friction, "v [mm/s], COF, SD (COF)\n1, 0.3, 0.01\n", {}, {"error": [0.01]}),
     "friction with its error": (friction, "v [mm/s], mu, SD\n1, 0.3, 0.01\n", {}, {"error": [0.01]}),
     "two channels, words": (record, "Zeit (s);Beschl. Z (g);Beschl. X (g)\n0;1;0\n", {},
                             ('"a_x": "Beschl. X", "a_z": "Beschl. Z"',)),
@@ -163,6 +164,14 @@ SIZES = {
     "an error by another name": (friction, "v [mm/s], mu, Streuung\n1, 0.3, 0.01\n", 'columns={"error": "Streuung"}'),
     "velocities in mm/s": (friction, "v [m/s], mu\n500, 0.3\n", "v_0, read in m/s, is at most 500 m/s"),
 }
+
+
+def test_numbers_of_runs_and_words_are_no_errors(tmp_path):
+    path = tmp_path / "data.csv"
+    path.write_text("Run, v [mm/s], mu, n, remark\n1, 1, 0.3, 10, dry\n2, 2, 0.4, 12, dry\n", encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert mdr.read_friction_data(path).error is None
 
 
 @pytest.mark.parametrize(("read", "text", "words"), SIZES.values(), ids=SIZES.keys())

@@ -67,14 +67,6 @@ ABSURD = {
         "damping ratio of the body is 44",
     ),
     "tau in ms": ({"material": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1.0)}, "tau in ms"),
-    "a frequency above all data": (
-        {"material": mdr.Prony(3e6, [(1e6, 0.1), (1e6, 1.0), (1e6, 10.0)], 0.5)},
-        "rates of 0.0159 to 1.59 Hz, and the motion 50 Hz",
-    ),
-    "a frequency below all data": (
-        {"material": mdr.Prony(3e6, [(1e6, 1e-5), (1e6, 1e-6), (1e6, 1e-7)], 0.5)},
-        "rates of 1.59e.04 to 1.59e.06 Hz, and the motion 50 Hz",
-    ),
     "a modulus of a force curve in MPa": (
         {
             "indenter": mdr.FromForce(DEPTHS, FORCES, 4.0, tip="round"),
