@@ -19,6 +19,7 @@ from mdr.tools.warned import PlausibilityWarning
 
 from mdr.files.case_files import write_case
 from mdr.files.toml_text import CaseFileError
+from mdr.files.force_curves import read_force_curve
 from mdr.files.measurements import read_moduli, read_record
 from mdr.files.step_tests import read_creep, read_relaxation
 from mdr.files.own_records import register
@@ -100,9 +101,9 @@ __all__ = [
     "State", "Study", "blocked_cof", "cof_curve", "critical_velocity", "displacement_of", "find", "fit",
     "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "measure_critical_velocity",
     "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof", "read_case", "read_creep",
-    "read_friction_data", "read_moduli", "read_record", "read_relaxation", "read_study", "register", "resolved",
-    "rig", "slide", "slide_many", "slide_record", "static_cof", "static_depth", "static_load", "surface_fields",
-    "sweep", "tangential_loop", "tolerance", "verdict", "waveforms", "write_case",
+    "read_force_curve", "read_friction_data", "read_moduli", "read_record", "read_relaxation", "read_study", "register",
+    "resolved", "rig", "slide", "slide_many", "slide_record", "static_cof", "static_depth", "static_load",
+    "surface_fields", "sweep", "tangential_loop", "tolerance", "verdict", "waveforms", "write_case",
 ]  # fmt: skip
 __all__ += indenters.__all__  # shapes, materials and motions are listed where they stand
 __all__ += materials.__all__

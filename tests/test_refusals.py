@@ -99,7 +99,7 @@ HOSTILE = {
                ([(1, 2, 3)], ValueError, "[0] must be a pair"), ([(1, 1), (-1, 1)], ValueError, "[1] modulus must not"),
                ([(1, NAN)], ValueError, "[0] relaxation time must be a finite number")],
     "_place": [("table", ValueError, 'must be "tool"'), (1, TypeError, "must be a word in quotes")],
-    "_tip": [("blunt", ValueError, "must be "), (None, ValueError, "must be ")],
+    **{key: [("blunt", ValueError, "must be "), (None, ValueError, "must be ")] for key in ("_tip", "tip_of")},
     "_springs": [*((one, TypeError, "must be a whole number") for one in (True, 40.5, "many")),
                  (15, ValueError, "must be at least 16")],
     "_function": [("r**2", TypeError, "must be a function"), (3, TypeError, "must be a function")],

@@ -11,15 +11,16 @@ the touches of a round and of a sharp one: a cone with a round end has its touch
 from __future__ import annotations
 
 from os import PathLike
+from typing import NamedTuple
 
 import numpy as np
 
 from mdr.files.measurements import read_table
-from mdr.indenters.mapping.force_curves import TIPS
+from mdr.indenters.mapping.force_curves import TIPS, tip_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite
 from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Reading, Table
+from mdr.tools.csv_table import Columns, Reading, Table, Units
 from mdr.tools.warned import warn_outside
 
 PARTS = ("approach", "retract")
@@ -35,15 +36,61 @@ FORCE = (
 )
 
 
-def force_points(
-    path: str | PathLike[str], reading: Reading, part: str, touch: float | None, baseline: float | None, power: float
-) -> tuple[Array, Array]:
-    """Depths [m] from the touch, and forces [N] at them, both from 0; `power` n of the tip, 0 where not known."""
+class ForceCurve(NamedTuple):
+    """A measured force over depth, one way of it, arrays of shape (n,), as `FromForce.read` takes it."""
+
+    d: Array  #: readings of the depth [m], ascending
+    F: Array  #: forces [N], with what there is before the touch
+    touch: float | None  #: reading of the depth at first touch [m]; None where the readings are depths from there
+    baseline: float  #: force before the touch [N]
+    depths: Array  #: (n_p,) from the touch on, from 0 [m]
+    forces: Array  #: (n_p,) less the baseline, from 0 [N]
+
+
+def read_force_curve(
+    path: str | PathLike[str],
+    *,
+    units: Units = None,
+    columns: Columns = None,
+    skip: int | None = None,
+    part: str = "approach",
+    touch: float | None = None,
+    baseline: float | None = None,
+    tip: str = "any",
+) -> ForceCurve:
+    r"""Normal force [N] over depth [m] from a CSV file, with its touch and baseline: to look at what is taken.
+
+    Parameters
+    ----------
+    path, units, columns, skip, part, touch, baseline, tip
+        As in `FromForce.read`.
+
+    Returns
+    -------
+    ForceCurve
+        The curve, which `mdr.plots.plot_force_curve` draws.
+
+    Raises
+    ------
+    ValueError
+        With file and line of what is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import mdr
+    >>> points = "".join(f"{d}, {1 + 0.4 * max(d - 3, 0)**1.5}\n" for d in range(12))
+    >>> _ = Path("press.csv").write_text("z [um], F [mN]\n" + points)
+    >>> curve = mdr.read_force_curve("press.csv", columns={"d": "z"}, touch=3e-6)
+    >>> print(f"{curve.baseline:.3g} N, {curve.depths[-1]:.2g} m")
+    0.001 N, 8e-06 m
+    """
     if part not in PARTS:
         raise ValueError(f"part must be one of {', '.join(PARTS)}, got {part!r}")
+    power = TIPS[tip_of("tip", tip)]
     touch = None if touch is None else finite("touch", touch, "reading of d in m")
     baseline = None if baseline is None else finite("baseline", baseline, "force before the touch in N")
-    table = read_table(path, FORCE, reading)
+    table = read_table(path, FORCE, Reading(units, columns, skip))
     d, F = _one_way(table, part)
     if d.size > 2 * TOLD_FROM and np.sum(np.diff(F) ** 2) > np.sum((F - F.mean()) ** 2):  # of noise alone it is twice
         raise table.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
@@ -57,9 +104,17 @@ def force_points(
     elif touch is not None and baseline is None and np.any(d < touch):
         baseline = float(F[d < touch].mean())
         warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
+    baseline = baseline or 0.0
     if touch is not None:
-        _doubt(table, F - (baseline or 0.0), d, touch)
-    F = F - (baseline or 0.0)
+        _doubt(table, F - baseline, d, touch)
+    elif not are_depths:
+        where = "above the surface" if d[0] < 0 else "far from 0"
+        raise table.fault(f"the first d is {d[0]:.6g} m, {where}; give the depth of the first touch as touch=")
+    return ForceCurve(d, F, touch, baseline, *_from_the_touch(table, d, F - baseline, touch))
+
+
+def _from_the_touch(table: Table, d: Array, F: Array, touch: float | None) -> tuple[Array, Array]:
+    """Depths from the touch, and forces less the baseline, both from 0."""
     if np.all(F <= 0) or (-F.min() > 2 * F.max() and np.argmin(F) > 0.9 * F.size):  # what is deepest pulls most
         raise table.fault("no force is above zero; compression must be positive, turn the sign of F")
     if touch is not None:
@@ -68,9 +123,6 @@ def force_points(
         step = np.diff(d).mean() if d.size > 1 else 0.0
         kept = (d > touch + ON_IT * step) & (np.arange(d.size) > (below[-1] if below.size else -1))
         d, F = d[kept] - touch, F[kept]
-    elif not are_depths:
-        where = "above the surface" if d[0] < 0 else "far from 0"
-        raise table.fault(f"the first d is {d[0]:.6g} m, {where}; give the depth of the first touch as touch=")
     if d.size and d[0] > 0:
         d, F = np.insert(d, 0, 0.0), np.insert(F, 0, 0.0)
     return d, F

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
-from mdr.indenters.mapping.force_curves import TIPS, Curve, Near, Through
+from mdr.indenters.mapping.force_curves import Curve, Near, Through, tip_of
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE
@@ -23,15 +23,8 @@ from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, not_ascend
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
-from mdr.tools.csv_table import Columns, Reading, Units, warn_of_size
+from mdr.tools.csv_table import Columns, Units, warn_of_size
 from mdr.tools.fields import facts
-
-
-def _tip(name: str, value: Any, note: str = "") -> str:
-    if not isinstance(value, str) or value not in TIPS:
-        raise ValueError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}")
-    return value
-
 
 DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
 FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
@@ -66,7 +59,7 @@ class FromForce(Indenter):
     E_star: float = field(
         metadata=facts("Pa", "contact modulus of the body on which F was measured", note="modulus in Pa", example=4e6)
     )
-    tip: str = field(default="any", kw_only=True, metadata=facts("", "any, round, sharp or flat", _tip))
+    tip: str = field(default="any", kw_only=True, metadata=facts("", "any, round, sharp or flat", tip_of))
     smoothing: float = field(default=0.0, kw_only=True, metadata=facts("N", NOISE, not_negative))
 
     def __post_init__(self) -> None:
@@ -140,6 +133,10 @@ class FromForce(Indenter):
         ValueError
             With file and line of what is wrong.
 
+        See Also
+        --------
+        read_force_curve : what is taken, for `mdr.plots.plot_force_curve`.
+
         Warns
         -----
         PlausibilityWarning
@@ -155,11 +152,13 @@ class FromForce(Indenter):
         >>> mdr.FromForce.read("press.csv", E_star=4e6, tip="round").max_radius
         0.0002121...
         """
-        from mdr.files.force_curves import force_points
+        from mdr.files.force_curves import read_force_curve
         from mdr.files.measurements import LIKELY_MODULUS
 
-        power = TIPS[_tip("tip", tip)]
-        d, F = force_points(path, Reading(units, columns, skip), part, touch, baseline, power)
+        curve = read_force_curve(
+            path, units=units, columns=columns, skip=skip, part=part, touch=touch, baseline=baseline, tip=tip
+        )
+        d, F = curve.depths, curve.forces
         try:
             shape = cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]
         except ValueError as refusal:

@@ -30,6 +30,7 @@ __all__ = [
     "periods_of",
     "plot_curve",
     "plot_fit",
+    "plot_force_curve",
     "plot_forces",
     "plot_profile",
     "plot_run",
@@ -193,6 +194,37 @@ def plot_fit(fitted: Any, ax: "Axes | None" = None) -> "Axes":
         ax.set(xlabel=velocity, ylabel=r"coefficient of friction $\mu$")
         ax.label_outer()
         ax.legend()
+    return ax
+
+
+def plot_force_curve(curve: Any, ax: "Axes | None" = None) -> "Axes":
+    """Draw a measured force over depth, what is taken of it, and the touch and the baseline.
+
+    Parameters
+    ----------
+    curve : ForceCurve
+        What `read_force_curve` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw. None makes a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where it was drawn.
+    """
+    length, force = prefix(curve.d, "m"), prefix(curve.F, "N")
+    touch = 0.0 if curve.touch is None else curve.touch
+    with style():
+        ax = axes_of(ax)
+        ax.plot(curve.d * length[0], curve.F * force[0], ".", color="0.6", markersize=4, label="measured")
+        taken = (touch + curve.depths) * length[0], (curve.baseline + curve.forces) * force[0]
+        ax.plot(*taken, color=COLOURS[0], label="from the touch on")
+        if curve.touch is not None:
+            told = f"touch {touch * length[0]:.4g} {length[1]}, baseline {curve.baseline * force[0]:.4g} {force[1]}"
+            ax.axvline(touch * length[0], color=COLOURS[1], linewidth=1.0, linestyle="--", label=told)
+            ax.axhline(curve.baseline * force[0], color=COLOURS[1], linewidth=1.0, linestyle="--")
+        ax.set(xlabel=f"depth [{length[1]}]", ylabel=f"normal force [{force[1]}]")
+        ax.legend(loc="upper left")
     return ax
 
 

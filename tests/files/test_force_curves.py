@@ -8,6 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr import plots
 from mdr.files.force_curves import touch_of
 
 E_STAR, DEPTH, TOUCH = 1e5, 200e-9, 100e-9
@@ -92,6 +93,18 @@ def test_what_a_baseline_tells_of_a_curve_is_said(tmp_path):
     air = greatest * (0.05 + 0.005 * np.random.default_rng(3).normal(size=z.size))
     with pytest.raises(ValueError, match="nothing is touched"):
         read(written(tmp_path / "data.csv", z - DEPTH, air), tip="round", smoothing=0.01 * greatest)
+
+
+def test_what_is_taken_is_drawn(tmp_path):
+    z, F, _ = curve(BALL, noise=0.005)
+    read_as = {"columns": {"d": "z"}, "tip": "round"}
+    found = mdr.read_force_curve(written(tmp_path / "data.csv", z, F), **read_as)
+    assert found.depths.size == found.forces.size < found.d.size == z.size
+    measured, taken, touch, baseline = plots.plot_force_curve(found).lines
+    assert_allclose(measured.get_ydata(), 1e9 * F, rtol=1e-12)
+    assert_allclose(touch.get_xdata(), 1e9 * found.touch)
+    assert_allclose(baseline.get_ydata(), 1e9 * found.baseline)
+    assert_allclose(taken.get_xdata()[[0, -1]], [1e9 * found.touch, 1e9 * z[-1]])
 
 
 def test_forces_of_another_sign_or_unit_are_refused(tmp_path):

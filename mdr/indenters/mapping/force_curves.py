@@ -24,6 +24,13 @@ SIGMAS = 3.0  #: by which the root mean square of noise may be more than it is o
 PIECES, DEGREE = 40, 3  #: of F', pieces at most
 
 
+def tip_of(name: str, value: Any, note: str = "") -> str:
+    """The rule of a field that names a kind of tip."""
+    if not isinstance(value, str) or value not in TIPS:
+        raise ValueError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}")
+    return value
+
+
 class Curve(Protocol):
     """F over d > 0, where F ~ d^power at d -> 0."""
 
