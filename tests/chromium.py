@@ -113,14 +113,19 @@ class Browser:
         from selenium.webdriver.common.keys import Keys
 
         box = self.inside(named("box", path), "input")
+        before = box.get_attribute("value")
 
-        def stands():
-            # typed over what stands there: to empty the box first would be a change; an answer may overwrite the text
+        def entered():
+            # typed over what stands there: to empty the box first would be a change; an answer may overwrite the text,
+            # until it is entered
             box.send_keys(Keys.CONTROL + "a" + Keys.NULL + text)
-            return box.get_attribute("value") == text
+            if box.get_attribute("value") != text:
+                return False
+            box.send_keys(Keys.ENTER)
+            time.sleep(0.2)
+            return text == before or box.get_attribute("value") != before
 
-        self.until(stands)
-        box.send_keys(Keys.ENTER)
+        self.until(entered)
 
     def move(self, path, steps):
         from selenium.webdriver.common.keys import Keys
