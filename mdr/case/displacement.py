@@ -79,7 +79,7 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     x = np.fft.rfftfreq(n, step) / high_pass
     gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
     spectrum = np.fft.rfft(a - a.mean(), n)
-    # of a drift little is left where the straight line and both ends are taken off, 5/8 of it; slower still is drift
+    # a Hann window, which leaves 3/8 of a steady power, and the straight line take drift off; slower still is drift
     line, below = np.polynomial.Polynomial.fit(t, a, 1), (x > 0.1) & (x < 1)
     power = 8 / 3 * np.abs(np.fft.rfft((a - line(t)) * np.hanning(t.size), n)) ** 2
     if power[below].sum() > np.sum(np.abs(spectrum[x >= 1]) ** 2):

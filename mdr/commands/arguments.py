@@ -92,14 +92,14 @@ def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
     """What a reader of the library makes of a CSV file; what it says names options in the place of its arguments."""
     given = {"columns": dict(args.columns), "units": dict(args.units), "skip": args.skip}
     given |= {"rate": args.rate} if hasattr(args, "rate") else {}
-    with warnings.catch_warnings(record=True) as told:
-        try:
-            found = read(path, **given)
-        except ValueError as refusal:
-            raise WrongInput(in_options(str(refusal), vars(args))) from None
-    for one in told:
-        warnings.warn(in_options(str(one.message), vars(args)), one.category)
-    return found
+    try:
+        with warnings.catch_warnings(record=True) as told:
+            return read(path, **given)
+    except ValueError as refusal:
+        raise WrongInput(in_options(str(refusal), vars(args))) from None
+    finally:  # what was told on the way stands beside a refusal too
+        for one in told:
+            warnings.warn(in_options(str(one.message), vars(args)), one.category)
 
 
 def in_options(message: str, options: Iterable[str]) -> str:

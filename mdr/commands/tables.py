@@ -13,18 +13,17 @@ from mdr.commands.output import WrongInput, answer, refusals
 from mdr.files.case_files import write_table
 from mdr.tools.notation import value_in
 
-#: what is asked of heights and of forces, {option: unit}, "" for a word
-OF_HEIGHTS = {"smoothing": "m", "tip": "", "apex": "m", "side": "", "kinks": "m"}
-OF_FORCES = {"smoothing": "N", "tip": "", "part": "", "touch": "m", "baseline": "N"}
-MEANINGS = {
-    "smoothing": "standard deviation of the noise of the heights, 14nm, or of the forces, 2uN",
-    "tip": "of heights round or sharp, of forces any, round, sharp or flat",
-    "apex": "place of the tip in the scan (default: 0)",
-    "side": "of the tip: both, left or right",
-    "kinks": "radii of edges",
-    "part": "approach or retract",
-    "touch": "reading of the depth at first touch (default: found)",
-    "baseline": "force before the touch (default: found)",
+#: options of heights and of forces: the unit in either, "" of a word, None where it says nothing; and the meaning
+OPTIONS: dict[str, tuple[str | None, str | None, str]] = {
+    "smoothing": ("m", "N", "standard deviation of the noise of the heights, 14nm, or of the forces, 2uN"),
+    "tip": ("", "", "of heights round or sharp, of forces any, round, sharp or flat"),
+    "apex": ("m", None, "place of the tip in the scan (default: 0)"),
+    "side": ("", None, "of the tip: both, left or right"),
+    "kinks": ("m", None, "radii of edges"),
+    "flip": ("", None, "the tip was measured pointing up"),
+    "part": (None, "", "approach or retract"),
+    "touch": (None, "m", "reading of the depth at first touch (default: found)"),
+    "baseline": (None, "N", "force before the touch (default: found)"),
 }
 SOURCES: dict[str, tuple[Any, Any]] = {
     "moduli": (mdr.read_moduli, mdr.Prony.fit),
@@ -41,23 +40,24 @@ def add_options_of_indenter(command: argparse.ArgumentParser) -> None:
     modulus = plain_number("Pa", "a modulus such as 4MPa")
     pressed = "contact modulus of the body that was pressed: 4MPa"
     command.add_argument("--E-star", metavar="modulus", type=modulus, help=pressed)
-    for name, meaning in MEANINGS.items():
-        command.add_argument(f"--{name}", nargs="+" if name == "kinks" else None, metavar=name, help=meaning)
-    command.add_argument("--flip", action="store_true", help="the tip was measured pointing up")
+    for name, (*_, meaning) in OPTIONS.items():
+        flag: dict[str, Any] = {"action": "store_true", "default": None}
+        how = flag if name == "flip" else {"nargs": "+" if name == "kinks" else None, "metavar": name}
+        command.add_argument(f"--{name}", help=meaning, **how)
     add_reading(command)
     command.epilog = "The table [indenter] goes into a case file."
 
 
 def indenter(args: argparse.Namespace, _: None) -> int:
     """Print the table [indenter] of measured heights or forces."""
-    units, is_force = (OF_HEIGHTS, False) if args.E_star is None else (OF_FORCES, True)
-    given: dict[str, Any] = {"E_star": args.E_star} if is_force else {"flip": args.flip}
-    for name in MEANINGS:
-        if (text := getattr(args, name)) is None:
-            continue
-        if name not in units:
+    is_force = args.E_star is not None
+    given: dict[str, Any] = {"E_star": args.E_star} if is_force else {}
+    for name, (of_heights, of_forces, _) in OPTIONS.items():
+        value, unit = getattr(args, name), of_forces if is_force else of_heights
+        if value is not None and unit is None:
             raise WrongInput(f"--{name} is of {'heights' if is_force else 'forces, which need --E-star'}: leave it out")
-        given[name] = text if not units[name] else _value(name, text, units[name])
+        if value is not None:
+            given[name] = _value(name, value, unit) if unit else value
     read = mdr.FromForce.read if is_force else mdr.SampledProfile.read
     with refusals():
         found = read_file(partial(read, **given), args.measured, args)

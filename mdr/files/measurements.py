@@ -310,13 +310,8 @@ def read_record(
     table = table_of(text, fsdecode(path), wanted, Reading(units, columns, skip), said)
     record = table.values
     if not record.keys() - {"t"}:
-        raise table.lacks(
-            "a time, and nothing else by a name known here",
-            "t [s], a [m/s²], or t [s], u_x [um], u_z [um]",
-            "a_x",
-            "a_y",
-            "a_z",
-        )
+        what, example = "a time, and nothing else by a name known here", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
+        raise table.lacks(what, example, "a_x", "a_y", "a_z")
     if step is not None:
         _doubt_rate(text, table.source, Reading(_of_time(units), _of_time(columns), skip), step)
         record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}

@@ -149,7 +149,7 @@ class Header:
 
     @property
     def unread(self) -> list[str]:
-        """Names of the cells without a unit that are no column."""
+        """Names of the cells that are no column and may be pure numbers."""
         heads = [self.heads[i] for i in self._free()]
         return [one.name for one in heads if one.name and {one.unit, one.below} <= {"", "-", "1", "%"}]
 

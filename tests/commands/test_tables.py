@@ -89,6 +89,7 @@ def test_what_is_told_of_a_file_names_options(capsys):
     ("command", "words"),
     [
         ("indenter press.csv --E-star 4MPa --apex 8um", "--apex is of heights: leave it out"),
+        ("indenter press.csv --E-star 4MPa --flip", "--flip is of heights: leave it out"),
         ("indenter scan.csv --part retract", "--part is of forces, which need --E-star: leave it out"),
         ("indenter scan.csv --smoothing 2N", "--smoothing wants m (or cm"),
         ("indenter scan.csv --apex 9um", "give the place of the tip as --apex, or add"),
