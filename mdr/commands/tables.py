@@ -52,7 +52,7 @@ def indenter(args: argparse.Namespace, _: None) -> int:
     """Print the table [indenter] of measured heights or forces."""
     is_force = args.E_star is not None
     given: dict[str, Any] = {"E_star": args.E_star} if is_force else {}
-    for name, (of_heights, of_forces, _) in OPTIONS.items():
+    for name, (of_heights, of_forces, _meaning) in OPTIONS.items():
         value, unit = getattr(args, name), of_forces if is_force else of_heights
         if value is not None and unit is None:
             raise WrongInput(f"--{name} is of {'heights' if is_force else 'forces, which need --E-star'}: leave it out")
