@@ -214,6 +214,16 @@ class ScaledContact:
         """What friction bears at the most."""
         return Limit.of(self.normal, self.springs, self.drive.z, self.drive.z_dot, self.law, self.faces)
 
+    @cached_property
+    def bears(self) -> Array:
+        """The most that each spring bears (n,), as a force."""
+        return self.springs.w * self.limit.greatest
+
+    @cached_property
+    def deepest_gap(self) -> float:
+        """The greatest length beside which an extension is rounded."""
+        return 1.0 + float(np.abs(self.springs.gap).max())
+
     def unseen(self, v: float) -> float:
         """Share of full slip lost at the edge of contact, in steps too long to see it, at a velocity of the pull."""
         modulus = np.inf if self.law.T else 1.0 + sum(self.rheology.rho)  # a dashpot lets no limit grow like a root

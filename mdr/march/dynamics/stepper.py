@@ -7,6 +7,7 @@ form and the velocity of the pull, and counts the periods that it marched.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -15,19 +16,19 @@ from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
 from mdr.march.dynamics.dimensionless import ScaledContact, Way
 from mdr.march.dynamics.kernel import new_trace, trace_of
+from mdr.march.dynamics.period_sums import late_share, least_slip
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
-from mdr.tools.arrays import EXACT, Array
+from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
 
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
 LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
-WITH_IT = 0.5  #: of the way of the pull, on which a spring may go with it or lose and still count as slipping as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -59,14 +60,21 @@ class Stepper:
 
     def __init__(self, scaled: ScaledContact, v: float, tolerance: float = TOLERANCE, total: int | None = None) -> None:
         self.scaled, self.v, self.tolerance = scaled, v, tolerance
-        self.motion = scaled.drive.with_pull(v, scaled.faces)
         self.kernel, self.block = scaled.in_numbers
         self.mean_limit = scaled.limit.mean
         self.n_periods = 0  # marched so far
         self.solved = True  # whether every step of the last march was solved for
-        self.room = self.new_room(1)
-        self.last = self.room[1]  # its last period, overwritten by the next march
         self.ticker = Ticker("slide" if total else "slide, waiting for a steady state", total, "periods")
+
+    @cached_property
+    def motion(self) -> loop.Motion:
+        """The way of the indenter over a period."""
+        return self.scaled.drive.with_pull(self.v, self.scaled.faces)
+
+    @cached_property
+    def room(self) -> tuple[Array, loop.Trace]:
+        """The trace of the last period, flat and by its names; overwritten by the next march."""
+        return self.new_room(1)
 
     def full_slip(self) -> MarchState:
         """The state of full slip at phase 0; of a body without its free oscillation."""
@@ -109,12 +117,16 @@ class Stepper:
         periods: in a periodic motion each does, however slow the pull, and however little a state changes that has
         hardly moved.
         """
-        gap, w, drive, pull = *self.scaled.springs[:2], self.scaled.drive, 2 * np.pi * self.v
-        if pull <= drive.steps * LOST * (1 + np.abs(gap).max()):
+        pull = 2 * np.pi * self.v
+        if pull <= self.hidden_pull:
             return UNKNOWN if pull else 0.0
-        went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
-        late = np.abs(went) > WITH_IT * n_periods * pull
-        return 2 * float(w[late] @ self.scaled.limit.greatest[late]) / self.mean_limit
+        share = late_share(before.x, after.x, self.block, self.scaled.bears, n_periods * pull)
+        return float(share) / self.mean_limit
+
+    @property
+    def hidden_pull(self) -> float:
+        """Way of a pull over a period that is not told from rounding."""
+        return self.scaled.drive.steps * LOST * self.scaled.deepest_gap
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
@@ -123,7 +135,7 @@ class Stepper:
         self.solved = self.kernel(self.block, self.v, state.x, state.s, n_steps, flat)
         self.count(n_periods)
         if n_periods > 1:
-            for of, last in zip(trace, self.last, strict=True):
+            for of, last in zip(trace, self.room[1], strict=True):
                 last[:] = of[-len(last) :]
         return trace
 
@@ -143,18 +155,11 @@ class Stepper:
         cof = area.sum(axis=1) / (2 * np.pi * self.mean_limit)
         return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
 
-    def least_slip(self, trace: loop.Trace) -> float:
-        """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not. A
-        step in which contact begins counts as a whole, if it is not cut there.
+    def least_slip(self) -> float:
+        """Least velocity, the way of the pull, of springs that slip all the time, in the last period that was marched;
+        zero if some do not. A shear strength of the face hides it.
         """
-        if self.scaled.faces or not abs(1 - trace.area.real.sum() / (2 * np.pi * self.mean_limit)) <= EXACT:
-            return 0.0
-        (z, z_dot, *_), h = self.motion, self.scaled.drive.h
-        z_2 = np.diff(z_dot) / (2 * h)
-        length, x_1, x_2 = trace.parts[:, 1].real.T
-        first = x_1 - np.diff(z) / h + z_2 * h - 2 * z_2 * (h - length)
-        last = first + 2 * (x_2 - z_2) * length
-        return float(np.minimum(first, last).min(where=trace.area.real > 0, initial=np.inf))
+        return 0.0 if self.scaled.faces else float(least_slip(self.room[0], self.block, self.mean_limit))
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""

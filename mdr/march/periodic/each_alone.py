@@ -22,7 +22,8 @@ import numpy as np
 
 from mdr.march.dynamics.state import MarchState
 from mdr.march.dynamics.stepper import Stepper
-from mdr.march.periodic.search import FORGOTTEN, Orbit
+from mdr.march.periodic.period_map import FORGOTTEN
+from mdr.march.periodic.search import Orbit
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.solver import Solver, iterate
 from mdr.tools.arrays import Array
@@ -101,7 +102,7 @@ class _Springs:
         cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
         spread = 2 * off / stepper.mean_limit
         settling = Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y)
-        return Orbit(end, periods, settling, stepper.least_slip(stepper.last))
+        return Orbit(end, periods, settling, stepper.least_slip())
 
     def _state(self, x: Array) -> MarchState:
         parts = self.like.e.shape[0]

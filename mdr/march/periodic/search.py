@@ -8,16 +8,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.march.dynamics.body import N_BODY, RATE, Y
+from mdr.march.dynamics.body import N_BODY
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import AT_ONCE, Periods, Stepper
+from mdr.march.periodic.period_map import PeriodMap, energy_of
 from mdr.march.periodic.settling import LATE, Settling
-from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Found, Options, Shooting, SlowMotions
+from mdr.march.periodic.shooting import SOLVED_TOLERANCE, Found, Shooting, SlowMotions
 from mdr.tools.arrays import Array
+from mdr.tools.progress import time_is_over
 
-FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
-SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
 MEMORY, MOST = 8, 80  #: periods that Anderson's method combines, and after which it gives up
 A_TIME = (3, 20)  #: how many more of both each slow time of a material gets
@@ -48,39 +48,21 @@ def search(
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
     motions about them.
     """
-    n_before, how = stepper.n_periods, _how(stepper.scaled, 0 if near else UNCOMBINED)
-    for start in starts:
-        shooting = Shooting(stepper, start, how)
-        shooting.gain, shooting.motions = gain, motions
-        found = shooting.shoot()
+    n_before, of, slow = stepper.n_periods, PeriodMap.of(stepper), energy_of(stepper.scaled).slow
+    at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
+    memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
+    for begin in starts:
+        plain, n_trace = 0 if near else UNCOMBINED, len(stepper.room[0])
+        shooting = Shooting.begun(of, begin.x, n_trace, memory, plain, most, gain, motions)
+        while not (shooting.ended or time_is_over()):
+            stepper.count(shooting.go_on(at_once))
         motions = shooting.motions
-        if found is not None:
-            orbit = _orbit(found, start, shooting.motions)
-            if found.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer
+        if (found := shooting.found) is not None:
+            orbit = _orbit(found, begin, motions)
+            if found.is_close or slow or orbit.settling.settled:  # waiting for slow motions takes far longer
                 return orbit
     stepper.n_periods = n_before
     return None
-
-
-def _how(scaled: ScaledContact, plain: int) -> Options:
-    """How to look for the periodic state of a contact; plain: periods before the first combination."""
-    slow, roots = _slow_times(scaled), roots_of(scaled)
-    stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
-    memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
-    at_once = max(1, AT_ONCE // scaled.drive.steps)
-    return Options(roots, pushes_of(scaled, roots), slow, stable, memory, most, plain, at_once)
-
-
-def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
-    """Relaxation times, in periods, of what a period does not relax: arms, a dashpot, the pull."""
-    slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
-    if 2 * np.pi < scaled.law.T:
-        slow += (scaled.law.T / (2 * np.pi),)
-    if slow and scaled.body.C:
-        slow += (scaled.body.M / (np.pi * scaled.body.C) / CREEP,)
-    if scaled.body.pull_time > SLOW_PULL:
-        slow += (2 * scaled.body.pull_time / CREEP,)  # a material may be slower than is seen; this is known
-    return slow
 
 
 def _orbit(found: Found, like: MarchState, motions: SlowMotions | None) -> Orbit:
@@ -129,32 +111,3 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
     """The gain of a march with other springs or steps, whose multipliers differ by h²; None where that may be much."""
     h = max(one.drive.h, other.drive.h)
     return gain / (1 - gain * h**2) if gain is not None and gain * h**2 < SAME_GAIN else None
-
-
-def roots_of(scaled: ScaledContact) -> Array:
-    """Roots (n_x,) of the stiffness of every spring, of every arm of it and of the pull, and of the mass, in each
-    direction: a state vector times them is as long as the root of its energy.
-    """
-    moduli = np.sqrt(np.append(1.0, scaled.rheology.rho))
-    of_springs = np.multiply.outer(moduli, np.sqrt(scaled.springs.w)).ravel()
-    bodies = (scaled.body, scaled.body_across)[: scaled.ways]
-    of_bodies = np.sqrt([[0.0 if one.rigid else one.K for one in bodies], [one.M for one in bodies]])
-    return np.concatenate([np.repeat(of_springs, scaled.ways), np.ravel(of_bodies)])
-
-
-def pushes_of(scaled: ScaledContact, roots: Array) -> Array:
-    """Displacements (k, n_x) of unit length: of each arm of all springs that outlasts a period, and of the position and
-    velocity of the body; of the springs themselves where there is neither.
-    """
-    n, parts, ways = scaled.springs.gap.size, 1 + len(scaled.rheology.rho), scaled.ways
-    vectors, moved = np.arange(roots.size).reshape(-1, ways), []
-    for way, body in enumerate((scaled.body, scaled.body_across)[:ways]):
-        if not body.rigid:
-            moved += [vectors[parts * n + part, way] for part in ((Y, RATE) if body.M else (Y,))]
-    rows = [1 + j for j, theta in enumerate(scaled.rheology.theta) if theta > FORGOTTEN]
-    rows = rows if rows or moved else [0]
-    moved += [vectors[j * n : (j + 1) * n, way] for way in range(ways) for j in rows]
-    pushes = np.zeros((len(moved), roots.size))
-    for push, at in zip(pushes, moved, strict=True):
-        push[at] = 1 / np.linalg.norm(np.atleast_1d(roots[at]))
-    return pushes

@@ -347,7 +347,7 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     """
     state, periods = stepper.advance(stepper.full_slip(), 2)
     last = Periods(*(column[-1:] for column in periods))
-    least = stepper.least_slip(stepper.last)
+    least = stepper.least_slip()
     return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0), least)
 
 
