@@ -34,19 +34,17 @@ def trimmed(block, v, x, s, n_steps, trace):
 
 
 def fixed_point(A, b, x, edge=np.inf, close=1e-10):
-    """What the search of the march makes of such a map, which it knows to move slowly in the first two parts of x. As it
-    is at rest, no spring is late; and no friction brings a state back.
+    """What the search of the march makes of such a map at rest, where no spring is late and no friction brings a state
+    back; it knows that it moves slowly in the first two parts of x.
     """
     n_x, n = x.size, x.size - 2
     head = np.zeros(HEAD)
     head[[N, N_T, N_WAYS]] = n, 2, 1
     block = np.concatenate([head, A.ravel(), b, [edge]])
-    s, most = np.zeros((1, n)), np.full(n, 1e300)
-    known = {"slowest": 0.0, "stable": False, "tolerance": 20 * close, "mean_limit": 1.0, "hidden_pull": 0.0}
-    roots, pushes = np.ones(n_x), np.eye(n_x)[:2]
-    of = PeriodMap(
-        Kernel(trimmed), block, 0.0, s, most, np.zeros(n), roots, pushes, **known, inertia=1.0, has_face=False
-    )
+    springs = np.zeros(n), np.arange(n), np.zeros((1, n)), np.full(n, 1e300), np.zeros(n)
+    numbers = {"slowest": 0.0, "stable": False, "mean_limit": 1.0, "hidden_pull": 0.0, "inertia": 1.0}
+    how = {"v": 0.0, "tolerance": 20 * close, "kernel": Kernel(trimmed)}
+    of = PeriodMap(block, *springs, np.ones(n_x), np.eye(n_x)[:2], **numbers, has_face=False, **how)
     shooting = Shooting.begun(of, x, new_trace(block, 1).size, memory=8, plain=3, most=80)
     while not shooting.ended:
         shooting.go_on(100)

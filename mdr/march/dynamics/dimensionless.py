@@ -26,10 +26,12 @@ from mdr.normal.springs import SpringArray
 from mdr.spring.contact import Springs
 from mdr.spring.face import Faces
 from mdr.spring.law import Law, law_of
+from mdr.spring.path import ROUNDING
 from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.memoise import remembered
 
+LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
 RINGING_PASSES = 20  #: of the iteration for the oscillation of a body on springs with arms
 
 
@@ -220,9 +222,9 @@ class ScaledContact:
         return self.springs.w * self.limit.greatest
 
     @cached_property
-    def deepest_gap(self) -> float:
-        """The greatest length beside which an extension is rounded."""
-        return 1.0 + float(np.abs(self.springs.gap).max())
+    def hidden_pull(self) -> float:
+        """Way of a pull over a period that is not told from rounding."""
+        return self.drive.steps * LOST * (1.0 + float(np.abs(self.springs.gap).max()))
 
     def unseen(self, v: float) -> float:
         """Share of full slip lost at the edge of contact, in steps too long to see it, at a velocity of the pull."""

@@ -20,7 +20,6 @@ from mdr.march.dynamics.period_sums import late_share, least_slip
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
-from mdr.spring.path import ROUNDING
 from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 from mdr.tools.progress import Ticker, time_is_over
@@ -28,7 +27,6 @@ from mdr.tools.progress import Ticker, time_is_over
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
-LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -118,15 +116,10 @@ class Stepper:
         hardly moved.
         """
         pull = 2 * np.pi * self.v
-        if pull <= self.hidden_pull:
+        if pull <= self.scaled.hidden_pull:
             return UNKNOWN if pull else 0.0
         share = late_share(before.x, after.x, self.block, self.scaled.bears, n_periods * pull)
         return float(share) / self.mean_limit
-
-    @property
-    def hidden_pull(self) -> float:
-        """Way of a pull over a period that is not told from rounding."""
-        return self.scaled.drive.steps * LOST * self.scaled.deepest_gap
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""

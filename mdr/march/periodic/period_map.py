@@ -7,72 +7,67 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.body import N_BODY, RATE, Y
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.kernel import N_T, Kernel
 from mdr.march.dynamics.state import within_friction
-from mdr.march.dynamics.stepper import Stepper
 from mdr.spring.copies import copy, put
 from mdr.spring.path import FAST, OWN
 from mdr.tools.arrays import Array
-from mdr.tools.jit import inner
+from mdr.tools.jit import compiled, inner
 
 FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
 
 
-class Energy(NamedTuple):
-    """The norm of energy of states of n_x numbers, and what moves slowly in it."""
-
-    roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
-    pushes: Array  #: (k, n_x) displacements of unit length along slow motions
-    slow: tuple[float, ...]  #: relaxation times of material and pull, in periods, that a period does not relax
-    stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
-
-
 class PeriodMap(NamedTuple):
     """The map of a period, of n springs with J arms and states of n_x numbers."""
 
-    kernel: Kernel
     block: Array  #: what is marched (kernel.py)
-    v: float  #: velocity of the pull
+    gap: Array  #: (n,) of the springs
+    order: NDArray[np.int64]  #: (n,) of rising gaps
     s: Array  #: (1 + J, n) compressions at phase 0
     most: Array  #: (n,) the longest that extensions can be there
     bears: Array  #: (n,) the most that each spring bears, as a force
-    roots: Array  #: (n_x,) of stiffness and mass, as of Energy
-    pushes: Array  #: (k, n_x) as of Energy
+    roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
+    pushes: Array  #: (k, n_x) displacements of unit length along slow motions
     slowest: float  #: the longest of its slow times; zero where it has none
-    stable: bool  #: as of Energy
-    tolerance: float  #: of cof/mu_0, to which the fixed point is to be found
+    stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
     mean_limit: float  #: mean force of full slip
     hidden_pull: float  #: way of a pull over a period that is not told from rounding
     inertia: float  #: mass of the body, or else the stiffness that moves with it
     has_face: bool  #: whether the face has a shear strength
+    v: float  #: velocity of the pull
+    tolerance: float  #: of cof/mu_0, to which the fixed point is to be found
+    kernel: Kernel
 
-    @classmethod
-    def of(cls, stepper: Stepper) -> PeriodMap:
-        """That of a march."""
-        scaled, body, energy = stepper.scaled, stepper.scaled.body, energy_of(stepper.scaled)
-        inertia = body.M or (1.0 if body.rigid else body.K)  # under a rigid pull that of the springs
-        return cls(
-            stepper.kernel,
-            stepper.block,
-            float(stepper.v),
-            scaled.normal.s,
-            scaled.limit.most,
-            scaled.bears,
-            energy.roots,
-            energy.pushes,
-            float(max(energy.slow, default=0.0)),
-            energy.stable,
-            float(stepper.tolerance),
-            stepper.mean_limit,
-            stepper.hidden_pull,
-            float(inertia),
-            scaled.faces is not None,
-        )
+
+@lru_cache(maxsize=32)
+def map_of(scaled: ScaledContact) -> PeriodMap:
+    """That of a contact; its velocity and its tolerance are still to be told."""
+    (kernel, block), body, roots, slow = scaled.in_numbers, scaled.body, roots_of(scaled), slow_times(scaled)
+    return PeriodMap(
+        block,
+        scaled.springs.gap,
+        np.argsort(scaled.springs.gap, kind="stable"),
+        scaled.normal.s,
+        scaled.limit.most,
+        scaled.bears,
+        roots,
+        pushes_of(scaled, roots),
+        max(slow, default=0.0),
+        bool(slow) and (body.rigid or body.C > 0),
+        scaled.limit.mean,
+        scaled.hidden_pull,
+        body.M or (1.0 if body.rigid else body.K),  # under a rigid pull that of the springs
+        scaled.faces is not None,
+        0.0,
+        0.0,
+        kernel,
+    )
 
 
 @inner(error_model="numpy", fastmath=FAST, **OWN)
@@ -87,15 +82,7 @@ def marched(of, x, image, trace):
     return of.kernel(of.block, of.v, image, room, int(of.block[N_T]), trace)
 
 
-@lru_cache(maxsize=32)
-def energy_of(scaled: ScaledContact) -> Energy:
-    """That of a contact: the velocity has no part in it."""
-    slow, roots = _slow_times(scaled), roots_of(scaled)
-    stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
-    return Energy(roots, pushes_of(scaled, roots), slow, stable)
-
-
-def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
+def slow_times(scaled: ScaledContact) -> tuple[float, ...]:
     """Relaxation times, in periods, of what a period does not relax: arms, a dashpot, the pull."""
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
     if 2 * np.pi < scaled.law.T:
@@ -134,3 +121,37 @@ def pushes_of(scaled: ScaledContact, roots: Array) -> Array:
     for push, at in zip(pushes, moved, strict=True):
         push[at] = 1 / np.linalg.norm(np.atleast_1d(roots[at]))
     return pushes
+
+
+@compiled(nogil=True, error_model="numpy", fastmath=FAST)
+def on_other_springs(xs, gap, order, on, ways):
+    """States (k, n_x) of springs with these gaps, and the order of rising ones, on springs with the gaps `on`: linear
+    between those, and beyond as the first or the last.
+    """
+    k, n, m = len(xs), gap.size, on.size
+    parts = (xs.shape[1] // ways - N_BODY) // n
+    out = np.empty((k, ways * (parts * m + N_BODY)))
+    for j in range(k):
+        for i in range(ways * N_BODY):
+            out[j, ways * parts * m + i] = xs[j, ways * parts * n + i]
+    for i in range(m):
+        first, last = 0, n - 1
+        while last - first > 1:
+            middle = (first + last) // 2
+            if gap[order[middle]] <= on[i]:
+                first = middle
+            else:
+                last = middle
+        a, b = order[first], order[last]
+        apart = gap[b] - gap[a]
+        share = min(max((on[i] - gap[a]) / apart, 0.0), 1.0) if apart > 0.0 else 0.0
+        for j in range(k):
+            for part in range(parts):
+                for way in range(ways):
+                    at, of_a, of_b = (
+                        ways * (part * m + i) + way,
+                        ways * (part * n + a) + way,
+                        ways * (part * n + b) + way,
+                    )
+                    out[j, at] = xs[j, of_a] + share * (xs[j, of_b] - xs[j, of_a])
+    return out

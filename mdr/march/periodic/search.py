@@ -8,14 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.march.dynamics.body import N_BODY
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import AT_ONCE, Periods, Stepper
-from mdr.march.periodic.period_map import PeriodMap, energy_of
+from mdr.march.periodic.period_map import map_of, on_other_springs, slow_times
 from mdr.march.periodic.settling import LATE, Settling
 from mdr.march.periodic.shooting import SOLVED_TOLERANCE, Found, Shooting, SlowMotions
-from mdr.tools.arrays import Array
 from mdr.tools.progress import time_is_over
 
 SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
@@ -48,9 +46,10 @@ def search(
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
     motions about them.
     """
-    n_before, of, slow = stepper.n_periods, PeriodMap.of(stepper), energy_of(stepper.scaled).slow
+    n_before, slow = stepper.n_periods, slow_times(stepper.scaled)
+    of = map_of(stepper.scaled)._replace(v=stepper.v, tolerance=stepper.tolerance)
     at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
-    memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
+    memory, most = (one + more * len(slow) for one, more in zip((MEMORY, MOST), A_TIME, strict=True))
     for begin in starts:
         plain, n_trace = 0 if near else UNCOMBINED, len(stepper.room[0])
         shooting = Shooting.begun(of, begin.x, n_trace, memory, plain, most, gain, motions)
@@ -87,24 +86,15 @@ def at_other_resolution(
     state: MarchState, motions: SlowMotions | None, of: ScaledContact, on: ScaledContact
 ) -> tuple[MarchState, SlowMotions | None]:
     """A state of a march with other springs or steps, and the slow motions about it, on those of this one."""
-    parts = [state.x[None]] if motions is None else [state.x[None], motions.before, motions.after]
-    xs = _on_other_springs(np.concatenate(parts), of, on)
+    xs, springs = state.x[None], map_of(of)
     if motions is not None:
-        motions = SlowMotions(*np.split(xs[1:], 2))
+        xs = np.concatenate([xs, motions.before, motions.after])
+    if springs.gap.size != on.springs.gap.size or not np.array_equal(springs.gap, on.springs.gap):
+        xs = on_other_springs(xs, springs.gap, springs.order, on.springs.gap, on.ways)
+    if motions is not None:
+        k = len(motions.before)
+        motions = SlowMotions(xs[1 : 1 + k], xs[1 + k :])
     return MarchState(xs[0], on.normal.s.copy()), motions
-
-
-def _on_other_springs(xs: Array, of: ScaledContact, on: ScaledContact) -> Array:
-    """State vectors (k, n_x) of other springs on the springs of this march, linear between those."""
-    if of.springs.gap is on.springs.gap or np.array_equal(of.springs.gap, on.springs.gap):
-        return xs
-    order = np.argsort(of.springs.gap, kind="stable")
-    place = np.interp(on.springs.gap, of.springs.gap[order], np.arange(order.size))
-    before = np.minimum(place.astype(int), order.size - 2)  # -1 of a single spring is itself
-    vectors = xs if on.ways == 1 else xs.view(complex)
-    e = vectors[:, :-N_BODY].reshape(len(xs), -1, order.size)[:, :, order]
-    e = e[..., before] + (place - before) * (e[..., before + 1] - e[..., before])
-    return np.concatenate([e.reshape(len(xs), -1), vectors[:, -N_BODY:]], axis=1).view(float)
 
 
 def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: ScaledContact) -> float | None:

@@ -167,7 +167,7 @@ class Shooting:
         """Go on for about so many periods; how many it were."""
         counts = self.search.counts
         before = int(counts[MARCHED])
-        shoot(self.of, self.search, n_periods)
+        shoot(self.of[:-3], *self.of[-3:], tuple(self.search), n_periods)
         return int(counts[MARCHED]) - before
 
     @property
@@ -191,8 +191,12 @@ class Shooting:
 
 
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)
-def shoot(of, search, n_periods):
-    """Go on with a search for ever smaller changes, for about so many periods."""
+def shoot(contact, v, tolerance, kernel, search, n_periods):
+    """Go on with a search for ever smaller changes, for about so many periods.
+
+    contact: the first parts of the PeriodMap; search: Search. Plain tuples: numba is slow to tell the types of others.
+    """
+    of, search = PeriodMap(*contact, v, tolerance, kernel), Search(*search)  # type: ignore[call-arg]
     counts = search.counts
     until = counts[MARCHED] + n_periods
     while counts[PHASE] != DONE and counts[MARCHED] < until:
