@@ -6,9 +6,9 @@ The point v_0 = 0 is the static limit.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,32 +44,38 @@ LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CofCurve(Summarised, Tabled, ArrayRecord):
-    """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
-
-    The point v_0 = 0 is the static limit, of a pull ever slower forward.
-    """
+class CofPoints(ArrayRecord):
+    """Coefficient of friction at some pulling velocities, arrays of shape (n_v,)."""
 
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
     cof_error: Array  #: bound on its error, and on that of cof_y, estimated of runs; 2 full_cof of one not settled [-]
     settled: NDArray[np.bool_]  #: whether the run settled
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
-    v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
-    mu_0: float  #: local coefficient of friction [-]
+    why: tuple[str, ...]  #: what the runs had to say, "" where nothing
+    cof_y: Array | None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
     full_cof: float  #: COF of full slip [-]: mu_0, or what a shear strength of the face makes of it
-    static_cof: float  #: limit v_0 -> +0 [-]
-    why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
-    v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
-    static_cof_back: float | None = (
-        None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
-    )
-    cof_y: Array | None = None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
 
     @property
     def share(self) -> Array:
         """`cof` over that of full slip [-], (n_v,): cof/mu_0 where the face has no shear strength."""
         return self.cof / self.full_cof
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CofCurve(Summarised, Tabled, CofPoints):
+    """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
+
+    The point v_0 = 0 is the static limit, of a pull ever slower forward.
+    """
+
+    v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
+    mu_0: float  #: local coefficient of friction [-]
+    static_cof: float  #: limit v_0 -> +0 [-]
+    v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
+    static_cof_back: float | None = (
+        None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
+    )
 
     def _summary(self) -> Summary:
         n, settled = self.v_0.size, int(self.settled.sum())
@@ -175,50 +181,77 @@ def cof_curve(
     >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
     array([0.319, 0.364, 0.398, 0.4  ])
     """
-    case, accuracy = resolved(case), accuracy_of(accuracy)
-    require_knobs(n_springs=n_springs, steps_per_period=steps_per_period)
-    if method not in (None, "march"):
-        raise ValueError(f'method must be None or "march", got {method!r}')
-    velocities = row("v_0", v_0, "m/s", "velocities")
-    if case.shake is None and np.any(velocities < 0):
-        raise ValueError(
-            f"v_0 must not be negative, got {float(velocities.min())!r} m/s: friction is the same both ways where "
-            "nothing shakes in the plane"
-        )
-    at_rest = (np.abs(velocities) < SLOWEST * case.unit_velocity) & (not case.is_shaken)
-    asked = np.where(at_rest, 0.0, velocities)
-    asked = asked if np.any(asked == 0) else np.append(asked, 0.0)
-    is_closed = method is None and has_closed_form(case)
-    friction: Friction = _closed_form if is_closed else _by_runs(accuracy, n_springs, steps_per_period)
-    cof, error, settled, sticks, why, cof_y = _both_ways(case, asked, friction)
-    if not is_closed:  # a static limit in closed form judges no run
-        wrong = disordered(asked, cof, error, settled & ((asked != 0) | case.is_shaken))
-        why[wrong] = (
-            "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
-        )
-        settled = settled & ~wrong
-    static, back = float(cof[np.argmax(asked == 0)]), None
-    if np.any(velocities < 0) and case.is_alike_both_ways:
+    known = _Curve(case, v_0, method, n_springs, steps_per_period, accuracy)
+    case, asked = known.case, known.asked
+    points = known.points(asked if np.any(asked == 0) else np.append(asked, 0.0))
+    static, back = float(points.cof[np.argmax(points.v_0 == 0)]), None
+    if np.any(asked < 0) and case.is_alike_both_ways:
         back = -static
-    elif np.any(velocities < 0) and (is_closed or np.any(velocities == 0)):  # slow runs take long
-        back = -float(_at_rest(case.mirrored, friction)[0])
-    full, n = full_cof(case), velocities.size
-    error = np.where(settled, np.minimum(error, 2 * full), 2 * full)
+    elif np.any(asked < 0) and (known.is_closed or np.any(asked == 0)):  # slow runs take long
+        back = -float(_at_rest(case.mirrored, known.friction)[0])
     return CofCurve(
-        v_0=velocities,
-        cof=cof[:n],
-        cof_error=error[:n],
-        settled=settled[:n],
-        stick_share=sticks[:n],
+        **_first(points, known.velocities),
         v_c=critical_velocity(case),
         mu_0=case.mu_0,
-        full_cof=full,
         static_cof=static,
-        why=tuple(why[:n].tolist()),
         v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
         static_cof_back=back,
-        cof_y=cof_y[:n] if case.moves_across else None,
     )
+
+
+def cof_at(case: SlidingContact, v_0: ArrayLike, **knobs: Any) -> CofPoints:
+    """Friction at velocities as a curve has it, without its limit at rest and its scale; knobs: of `cof_curve`."""
+    known = _Curve(case, v_0, **knobs)
+    return CofPoints(**_first(known.points(known.asked), known.velocities))
+
+
+class _Curve:
+    """What is asked of a curve, checked."""
+
+    def __init__(
+        self,
+        case: SlidingContact,
+        v_0: ArrayLike,
+        method: str | None = None,
+        n_springs: int | None = None,
+        steps_per_period: int | None = None,
+        accuracy: float = BUDGET,
+    ) -> None:
+        self.case, accuracy = resolved(case), accuracy_of(accuracy)
+        require_knobs(n_springs=n_springs, steps_per_period=steps_per_period)
+        if method not in (None, "march"):
+            raise ValueError(f'method must be None or "march", got {method!r}')
+        self.velocities = row("v_0", v_0, "m/s", "velocities")
+        if self.case.shake is None and np.any(self.velocities < 0):
+            raise ValueError(
+                f"v_0 must not be negative, got {float(self.velocities.min())!r} m/s: friction is the same both ways "
+                "where nothing shakes in the plane"
+            )
+        at_rest = (np.abs(self.velocities) < SLOWEST * self.case.unit_velocity) & (not self.case.is_shaken)
+        self.asked = np.where(at_rest, 0.0, self.velocities)
+        self.is_closed = method is None and has_closed_form(self.case)
+        by_runs = _by_runs(accuracy, n_springs, steps_per_period)
+        self.friction: Friction = _closed_form if self.is_closed else by_runs
+
+    def points(self, v_0: Array) -> CofPoints:
+        """Friction at velocities of which zero stands for its limit."""
+        case, full = self.case, full_cof(self.case)
+        cof, error, settled, sticks, why, cof_y = _both_ways(case, v_0, self.friction)
+        if not self.is_closed:  # a static limit in closed form judges no run
+            wrong = disordered(v_0, cof, error, settled & ((v_0 != 0) | case.is_shaken))
+            why[wrong] = (
+                "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
+            )
+            settled = settled & ~wrong
+        error = np.where(settled, np.minimum(error, 2 * full), 2 * full)
+        across = cof_y if case.moves_across else None
+        return CofPoints(v_0, cof, error, settled, sticks, tuple(why.tolist()), across, full)
+
+
+def _first(points: CofPoints, v_0: Array) -> dict[str, Any]:
+    """The fields of the points at these velocities, which come first."""
+    given = {one.name: getattr(points, one.name) for one in fields(points)}
+    return {name: one[: v_0.size] if hasattr(one, "__len__") else one for name, one in given.items()} | {"v_0": v_0}
 
 
 def require_knobs(**knobs: int | None) -> None:

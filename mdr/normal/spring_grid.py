@@ -43,6 +43,7 @@ class Depths(NamedTuple):
         return cls(cycle.u_z0, cycle.unit, kept, greatest, alike)
 
 
+@remembered(maxsize=16)
 def nodes(shape: Indenter, depths: Depths, n_springs: int) -> tuple[Array, Array, Array, int]:
     """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact."""
     if shape.least_depth > 0:

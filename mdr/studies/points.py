@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.friction.cof_curve import cof_curve
+from mdr.friction.cof_curve import cof_at
 from mdr.studies.axes import without_addresses
 from mdr.studies.quantities import CurveQuantity
 from mdr.studies.work import Work
@@ -117,7 +117,7 @@ def _fill_curves(work: Work, case: SlidingContact, v_0: Array, points: Points) -
     wanted = [(row, one) for row, one in enumerate(work.quantities) if isinstance(one, CurveQuantity)]
     if not wanted:
         return
-    curve = cof_curve(case, v_0, **work.knobs)
+    curve = cof_at(case, v_0, **work.knobs)
     for row, one in wanted:
         points.values[row] = one.of(case, curve)
     for j in np.flatnonzero(~curve.settled).tolist():

@@ -17,7 +17,7 @@ from mdr.case.paths import VELOCITIES
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.friction.cof_curve import CofCurve
+from mdr.friction.cof_curve import CofPoints
 from mdr.friction.measured_velocity import measure_critical_velocity
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
@@ -62,7 +62,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class CurveQuantity(Quantity):
-    """A quantity of a whole COF curve: of(case, curve) returns an array in the shape of its velocities."""
+    """A quantity of all velocities of a case: of(case, points) returns an array in their shape."""
 
     of: Callable[..., Any]
     per_velocity: bool = field(default=True, kw_only=True)
@@ -75,19 +75,19 @@ class _Attribute:
     name: str
     known: Callable[[SlidingContact], Any] | None = None
 
-    def __call__(self, case: SlidingContact, curve: CofCurve | None = None) -> Any:
+    def __call__(self, case: SlidingContact, curve: CofPoints | None = None) -> Any:
         return getattr(self.known(case) if self.known else case if curve is None else curve, self.name)
 
 
-def _cof_y(case: SlidingContact, curve: CofCurve) -> Array:
+def _cof_y(case: SlidingContact, curve: CofPoints) -> Array:
     return np.zeros(curve.v_0.shape) if curve.cof_y is None else curve.cof_y
 
 
-def _mean_F_x(case: SlidingContact, curve: CofCurve) -> Array:
+def _mean_F_x(case: SlidingContact, curve: CofPoints) -> Array:
     return curve.cof * mean_normal_force(case)
 
 
-def _mean_F_z(case: SlidingContact, curve: CofCurve) -> Array:
+def _mean_F_z(case: SlidingContact, curve: CofPoints) -> Array:
     return np.full(curve.v_0.shape, mean_normal_force(case))
 
 

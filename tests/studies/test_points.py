@@ -45,7 +45,7 @@ def test_a_run_that_did_not_settle_keeps_its_numbers(monkeypatch):
         curve = mdr.cof_curve(case, v_0, **knobs)
         return replace(curve, settled=curve.v_0 < 3e-4, why=tuple("F_x drifts" * bool(v > 2e-4) for v in curve.v_0))
 
-    monkeypatch.setattr("mdr.studies.points.cof_curve", restless)
+    monkeypatch.setattr("mdr.studies.points.cof_at", restless)
     v_0 = [1e-4, 4e-4, 2.5e-4]
     study = mdr.sweep(RIGID, {"v_0": v_0}, quantities=["cof", "settled"])
     assert_array_equal(study.status, [Status.DONE, Status.UNSETTLED, Status.DONE])
