@@ -181,7 +181,7 @@ def cof_curve(
     >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
     array([0.319, 0.364, 0.398, 0.4  ])
     """
-    known = _Curve(case, v_0, method, n_springs, steps_per_period, accuracy)
+    known = _Curve(resolved(case), v_0, method, n_springs, steps_per_period, accuracy)
     case, asked = known.case, known.asked
     points = known.points(asked if np.any(asked == 0) else np.append(asked, 0.0))
     static, back = float(points.cof[np.argmax(points.v_0 == 0)]), None
@@ -201,7 +201,7 @@ def cof_curve(
 
 def cof_at(case: SlidingContact, v_0: ArrayLike, **knobs: Any) -> CofPoints:
     """Friction at velocities as a curve has it, without its limit at rest and its scale; knobs: of `cof_curve`."""
-    known = _Curve(case, v_0, **knobs)
+    known = _Curve(resolved(case), v_0, **knobs)
     return CofPoints(**_first(known.points(known.asked), known.velocities))
 
 
@@ -217,7 +217,7 @@ class _Curve:
         steps_per_period: int | None = None,
         accuracy: float = BUDGET,
     ) -> None:
-        self.case, accuracy = resolved(case), accuracy_of(accuracy)
+        self.case, accuracy = case, accuracy_of(accuracy)
         require_knobs(n_springs=n_springs, steps_per_period=steps_per_period)
         if method not in (None, "march"):
             raise ValueError(f'method must be None or "march", got {method!r}')

@@ -15,11 +15,11 @@ Symbols: x position [m], gap = g(x) - u_z0 depth of a spring's foot relative to 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
@@ -48,11 +48,22 @@ def nodes(shape: Indenter, depths: Depths, n_springs: int) -> tuple[Array, Array
     """x, gap, width (n_springs,) from the centre outwards, and how many of the first never lose contact."""
     if shape.least_depth > 0:
         return _complete(shape, depths.u_z0, n_springs)
-    stretches = _stretches(shape, depths)
-    counts = _share_out(stretches, n_springs, depths.unit)
-    parts = [_springs_of(shape, depths.u_z0, stretch, n) for stretch, n in zip(stretches, counts, strict=True)]
-    x, gap, width = (np.concatenate(part) for part in zip(*parts, strict=True))
-    return x, gap, width, sum(n for stretch, n in zip(stretches, counts, strict=True) if stretch.permanent)
+    of = _stretches(shape, depths)
+    counts = _share_out(of, n_springs, depths.unit)
+    share, part, which = _fejer_row(counts)
+    span, height, u_z0 = of.x_hi - of.x_lo, of.gap_hi - of.gap_lo, depths.u_z0
+    x = of.x_lo[which] + span[which] * share
+    # how far g has risen through the stretch, 0 to 1; linear where the stretch is too thin to resolve in x
+    thin = (height <= 0) | (span < SAME * of.x_hi) | (height < SAME * (u_z0 + of.gap_hi))
+    g_lo, g_hi = u_z0 + of.gap_lo, u_z0 + of.gap_hi
+    rises = np.where(thin, 1.0, g_hi - g_lo)
+    rise = np.where(thin[which], share, np.clip((shape.profile_1d(x) - g_lo[which]) / rises[which], 0, 1))
+    gap = of.gap_lo[which] + height[which] * rise
+    # what the quadrature misses of the mean of g over a stretch, from the area below g; rounding is not corrected
+    missing = of.area / span - u_z0 - np.bincount(which, part * gap, span.size)
+    noise = 64 * EPS * of.x_hi * np.abs(u_z0 + of.gap_hi) / span
+    gap += np.where(np.abs(missing) > noise, missing, 0.0)[which]
+    return x, gap, 2 * span[which] * part, int(np.sum(counts, where=of.permanent))
 
 
 def _complete(shape: Indenter, u_z0: float, n: int) -> tuple[Array, Array, Array, int]:
@@ -62,59 +73,51 @@ def _complete(shape: Indenter, u_z0: float, n: int) -> tuple[Array, Array, Array
     return edges[:-1] + part / 2, np.diff(shape.profile_area(edges)) / part - u_z0, 2 * part, n
 
 
-@dataclass(frozen=True)
-class _Stretch:
-    """A stretch of the row: from x_lo to x_hi, where g rises from u_z0 + gap_lo to u_z0 + gap_hi."""
+class _Stretches(NamedTuple):
+    """The stretches of the row, arrays (n,): from x_lo to x_hi, where g rises from u_z0 + gap_lo to u_z0 + gap_hi."""
 
-    x_lo: float
-    x_hi: float
-    gap_lo: float
-    gap_hi: float
-    area: float  # below g, from x_lo to x_hi [m²]
-    permanent: bool  # in contact through the whole period
-    alike: bool  # its springs do the same but for their gap
+    x_lo: Array
+    x_hi: Array
+    gap_lo: Array
+    gap_hi: Array
+    area: Array  #: below g, from x_lo to x_hi [m²]
+    permanent: NDArray[np.bool_]  #: in contact through the whole period
+    alike: NDArray[np.bool_]  #: their springs do the same but for their gap
 
 
 @remembered(maxsize=16)
-def _stretches(shape: Indenter, depths: Depths) -> list[_Stretch]:
+def _stretches(shape: Indenter, depths: Depths) -> _Stretches:
     """The row, cut where springs begin to differ and to lose contact, where contact ends, and at kinks of the shape."""
     u_z0, kept, alike = depths.u_z0, depths.kept, depths.alike
     gaps = [gap for gap in (*([alike] if alike < kept else []), kept, depths.greatest) if u_z0 + gap > 0]
     radii = shape.contact_radius(u_z0 + np.array(gaps))
     marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]
-    marks.sort()
-    area = np.diff(shape.profile_area([x for x, _ in marks]))
-    return [
-        _Stretch(x_lo, x_hi, gap_lo, gap_hi, below, permanent=gap_hi <= kept, alike=gap_hi <= alike)
-        for (x_lo, gap_lo), (x_hi, gap_hi), below in zip(marks, marks[1:], area.tolist(), strict=False)
-        if x_hi > x_lo
-    ]
+    x, gap = np.array(sorted(marks)).T
+    area, there = np.diff(shape.profile_area(x)), np.diff(x) > 0
+    cut = (one[there] for one in (x[:-1], x[1:], gap[:-1], gap[1:], area, gap[1:] <= kept, gap[1:] <= alike))
+    return _Stretches(*cut)
 
 
-def _share_out(stretches: list[_Stretch], n_springs: int, unit: float) -> list[int]:
+def _share_out(of: _Stretches, n_springs: int, unit: float) -> tuple[int, ...]:
     """Number of springs of each stretch: the same, but for those where all move alike."""
-    least = 2 * len(stretches)
+    least = 2 * of.x_lo.size
     if n_springs < least:
         raise ValueError(f"n_springs must be at least {least} for this shape with its kinks, got {n_springs}")
-    level = np.array([stretch.gap_hi - stretch.gap_lo <= SAME * unit for stretch in stretches])
-    as_one = [stretch.alike for stretch in stretches]
+    level = of.gap_hi - of.gap_lo <= SAME * unit
     # a stretch whose springs move alike gets an eighth of the springs of another
-    shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(as_one, 1 / 8, 1.0)))
-    more = np.rint((n_springs - least) * shares / shares[-1])
-    return (2 + np.diff(more, prepend=0).astype(int)).tolist()  # type: ignore[no-any-return]
-
-
-def _springs_of(shape: Indenter, u_z0: float, stretch: _Stretch, n: int) -> tuple[Array, Array, Array]:
-    """Places, gaps and widths of the n springs of a stretch."""
-    span = stretch.x_hi - stretch.x_lo
-    share, part = _fejer(n)
-    gap = stretch.gap_lo + (stretch.gap_hi - stretch.gap_lo) * _rise(shape, stretch, share, u_z0)
-    gap += _missing_mean(u_z0, stretch, float(part @ gap))
-    return stretch.x_lo + span * share, gap, 2 * span * part
+    shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(of.alike, 1 / 8, 1.0)))
+    more = np.rint((n_springs - least) * shares / shares[-1]).astype(int).tolist()
+    return tuple(2 + after - before for before, after in zip([0, *more], more, strict=False))
 
 
 @lru_cache(maxsize=256)
+def _fejer_row(counts: tuple[int, ...]) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Nodes and weights on 0 to 1 of stretches of so many springs, one after the other, and whose they are."""
+    share, part = (np.concatenate(one) for one in zip(*map(_fejer, counts), strict=True))
+    return share, part, np.repeat(np.arange(len(counts)), counts)
+
+
 def _fejer(n: int) -> tuple[Array, Array]:
     """Nodes and weights on 0 to 1, (n,): (1 - cos theta)/2 at midpoints of theta; a sum of all Chebyshev moments."""
     from scipy.fft import dct
@@ -122,22 +125,3 @@ def _fejer(n: int) -> tuple[Array, Array]:
     moments = np.zeros(n)
     moments[::2] = 1 / (1 - np.arange(0.0, n, 2) ** 2)
     return np.sin(np.pi / 2 * (np.arange(n) + 0.5) / n) ** 2, dct(moments, type=3) / n
-
-
-def _rise(shape: Indenter, stretch: _Stretch, share: Array, u_z0: float) -> Array:
-    """How far g has risen through the stretch, 0 to 1; linear where the stretch is too thin to resolve in x."""
-    span = stretch.x_hi - stretch.x_lo
-    height = stretch.gap_hi - stretch.gap_lo
-    if height <= 0 or span < SAME * stretch.x_hi or height < SAME * (u_z0 + stretch.gap_hi):
-        return share
-    g_lo, g_hi = u_z0 + stretch.gap_lo, u_z0 + stretch.gap_hi
-    rise: Array = np.clip((shape.profile_1d(stretch.x_lo + span * share) - g_lo) / (g_hi - g_lo), 0, 1)
-    return rise
-
-
-def _missing_mean(u_z0: float, stretch: _Stretch, mean: float) -> float:
-    """Error of the quadrature in the mean of g over a stretch, from the area below g; rounding is not corrected."""
-    span = stretch.x_hi - stretch.x_lo
-    missing = stretch.area / span - u_z0 - mean
-    noise = 64 * EPS * stretch.x_hi * abs(u_z0 + stretch.gap_hi) / span
-    return missing if abs(missing) > noise else 0.0

@@ -10,7 +10,7 @@ import numpy as np
 from mdr.spring.contact import Each, Springs, press
 from mdr.spring.law import Law
 from mdr.spring.path import Path
-from mdr.spring.times import Tools, tools_for
+from mdr.spring.times import new_tools
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
@@ -54,21 +54,21 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
     each: whether force and pressed_for are asked for.
     """
     n_t, n = z.size - 1, gap.size
-    tools, sums, none = tools_for(law, 2 * np.pi / n_t), np.empty((5, n_t)), np.empty((0, n))
+    sums, none = np.empty((5, n_t)), np.empty((0, n))
     s = np.zeros((1 if law.arms is None else 1 + law.arms.rho.size, n))
     s[0] = np.maximum(z[0] - gap, 0)
     if law.arms is not None:
-        if not _settle(s, gap, w, z, z_dot, law, tools, sums):
+        if not _settle(s, gap, w, z, z_dot, law, sums):
             return None
     elif law.modes is not None:
-        period(s, gap, w, z, z_dot, *law, tools, sums, none, none)
+        period(s, gap, w, z, z_dot, *law, sums, none, none)
     force, pressed_for = np.empty((2, n_t if each else 0, n))
-    period(s.copy(), gap, w, z, z_dot, *law, tools, sums, force, pressed_for)
+    period(s.copy(), gap, w, z, z_dot, *law, sums, force, pressed_for)
     area, moment, end, compression, flight = sums
     return NormalPeriod(s, area, moment, end, compression, flight, force, pressed_for)
 
 
-def _settle(s: Array, gap: Array, w: Array, z: Array, z_dot: Array, law: Law, tools: Tools, sums: Array) -> bool:
+def _settle(s: Array, gap: Array, w: Array, z: Array, z_dot: Array, law: Law, sums: Array) -> bool:
     """Bring springs with arms (1 + J, n) to the state that returns after a period; whether that is found."""
     rho, rate = law.arms or (np.empty(0), np.empty(0))
     n, memory, roots = gap.size, min(rho.size, MEMORY), np.sqrt(np.append(1.0, rho))[:, None]
@@ -77,7 +77,7 @@ def _settle(s: Array, gap: Array, w: Array, z: Array, z_dot: Array, law: Law, to
     (tried, move), (tries, moves) = np.zeros((2, *s.shape)), np.zeros((2, memory, *s.shape))
     for turn in range(MOST_PASSES):
         start, x = s[:, who], s[:, who].copy()
-        period(x, gap[who], w[who], z, z_dot, *law, tools, sums, none, none)
+        period(x, gap[who], w[who], z, z_dot, *law, sums, none, none)
         s[:, who] = x
         change[who] = np.abs(x - start).max(axis=0)
         stays = change[who] <= 1e-13 * np.abs(x).max(axis=0) + 1e-15 * np.abs(gap[who])  # z - gap: its rounding
@@ -100,11 +100,13 @@ def _settle(s: Array, gap: Array, w: Array, z: Array, z_dot: Array, law: Law, to
 
 
 @compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def period(s, gap, w, z, z_dot, T, modes, arms, tools, sums, force, pressed_for):  # type: ignore[no-untyped-def]
+def period(s, gap, w, z, z_dot, T, modes, arms, sums, force, pressed_for):  # type: ignore[no-untyped-def]
     """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (5, n_t)."""
-    h, n = tools.times.h, gap.size
+    n_t, n = z.size - 1, gap.size
+    h = 2.0 * np.pi / n_t
+    tools = new_tools(h, modes, arms, 0.0)
     each = Each(np.empty(n), np.empty(n), np.empty(n))
-    for k in range(z.size - 1):
+    for k in range(n_t):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0, None)
         before, flies = 0.0, True

@@ -42,7 +42,7 @@ def fixed_point(A, b, x, edge=np.inf, close=1e-10):
     head[[N, N_T, N_WAYS]] = n, 2, 1
     block = np.concatenate([head, A.ravel(), b, [edge]])
     springs = np.zeros(n), np.arange(n), np.zeros((1, n)), np.full(n, 1e300), np.zeros(n)
-    numbers = {"slowest": 0.0, "stable": False, "mean_limit": 1.0, "hidden_pull": 0.0, "inertia": 1.0}
+    numbers = {"n_slow": 0, "slowest": 0.0, "stable": False, "mean_limit": 1.0, "hidden_pull": 0.0, "inertia": 1.0}
     how = {"v": 0.0, "tolerance": 20 * close, "kernel": Kernel(trimmed)}
     of = PeriodMap(block, *springs, np.ones(n_x), np.eye(n_x)[:2], **numbers, has_face=False, **how)
     shooting = Shooting.begun(of, x, new_trace(block, 1).size, memory=8, plain=3, most=80)

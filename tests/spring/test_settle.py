@@ -8,7 +8,6 @@ from rows import MATERIALS
 from mdr.materials.operator import Rheology
 from mdr.spring.law import law_of
 from mdr.spring.settle import period, settled
-from mdr.spring.times import tools_for
 
 every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
 SLOW = {"slow": (0.0, (1.5,), (1e5,)), "stiff and slow": (0.13, (1300.0, 480.0), (54.0, 0.038))}
@@ -29,7 +28,7 @@ def test_it_comes_back_after_a_period(material):
     known = np.array([found.area, found.moment, found.end, found.compression, found.flight])
     s, again = found.s.copy(), np.empty_like(known)
     none = np.empty((0, GAP.size))
-    period(s, GAP, W, *z, *law, tools_for(law, 2 * np.pi / 64), again, none, none)
+    period(s, GAP, W, *z, *law, again, none, none)
     assert_allclose(s, found.s, rtol=0, atol=1e-12 * np.abs(found.s).max())
     assert_allclose(again, known, rtol=0, atol=1e-11 * np.abs(known).max())
     pressed = found.pressed_for > 0
@@ -59,7 +58,7 @@ def test_stiff_arms_that_hardly_relax_have_their_mean_at_zero():
     gap, w, none = np.linspace(-0.9, 0.99, 40), np.ones(40), np.empty((0, 40))
     found = settled(gap, w, *z, law).s
     s = found.copy()
-    period(s, gap, w, *z, *law, tools_for(law, 2 * np.pi / 64), np.empty((5, 64)), none, none)
+    period(s, gap, w, *z, *law, np.empty((5, 64)), none, none)
     off = (s - found)[1:] / -np.expm1(-2 * np.pi * law.arms.rate)[:, None]
     assert np.abs(off).max() < 5e-8  # a change of 1e-13 of s in a period is none: 3e-8 of the slowest arm
 

@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.body import Body
+from mdr.march.dynamics.body import Body, numbers_of
 from mdr.march.dynamics.loop import FullSlipForce, Motion, Trace, march
 from mdr.spring.contact import Springs
 from mdr.spring.face import Faces
@@ -103,18 +103,13 @@ def block_of(
     arrays += [] if faces is None or springs.x2 is None else [springs.x2, faces.a2.ravel()]
     kind = Kind(*(None if one is None else True for one in (modes, arms, slip, faces, flight, plane or None)))
     return kernel_of(kind), np.concatenate(
-        [sizes, [T, 1.0 if faces is None else faces.coulomb], *map(_numbers, bodies), *arrays]
+        [sizes, [T, 1.0 if faces is None else faces.coulomb], *map(numbers_of, bodies), *arrays]
     )
 
 
 def new_trace(block: Array, n_periods: int) -> Array:
     """Room for the flat trace of so many periods."""
     return np.zeros(OF_STEP * n_periods * int(block[N_T] * block[N_WAYS]))
-
-
-def _numbers(parts: Any) -> list[float]:
-    """The numbers of nested tuples, one after the other."""
-    return [number for one in parts for number in (_numbers(one) if isinstance(one, tuple) else [float(one)])]
 
 
 def if_there(value, whether):

@@ -34,7 +34,8 @@ class PeriodMap(NamedTuple):
     bears: Array  #: (n,) the most that each spring bears, as a force
     roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
     pushes: Array  #: (k, n_x) displacements of unit length along slow motions
-    slowest: float  #: the longest of its slow times; zero where it has none
+    n_slow: int  #: of its slow times
+    slowest: float  #: the longest of these
     stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
     mean_limit: float  #: mean force of full slip
     hidden_pull: float  #: way of a pull over a period that is not told from rounding
@@ -48,7 +49,7 @@ class PeriodMap(NamedTuple):
 @lru_cache(maxsize=32)
 def map_of(scaled: ScaledContact) -> PeriodMap:
     """That of a contact; its velocity and its tolerance are still to be told."""
-    (kernel, block), body, roots, slow = scaled.in_numbers, scaled.body, roots_of(scaled), slow_times(scaled)
+    (kernel, block), body, slow = scaled.in_numbers, scaled.body, slow_times(scaled)
     return PeriodMap(
         block,
         scaled.springs.gap,
@@ -56,8 +57,8 @@ def map_of(scaled: ScaledContact) -> PeriodMap:
         scaled.normal.s,
         scaled.limit.most,
         scaled.bears,
-        roots,
-        pushes_of(scaled, roots),
+        *energy_of(scaled),
+        len(slow),
         max(slow, default=0.0),
         bool(slow) and (body.rigid or body.C > 0),
         scaled.limit.mean,
@@ -94,33 +95,51 @@ def slow_times(scaled: ScaledContact) -> tuple[float, ...]:
     return slow
 
 
-def roots_of(scaled: ScaledContact) -> Array:
+def energy_of(scaled: ScaledContact) -> tuple[Array, Array]:
     """Roots (n_x,) of the stiffness of every spring, of every arm of it and of the pull, and of the mass, in each
-    direction: a state vector times them is as long as the root of its energy.
+    direction: a state times them is as long as the root of its energy.
+
+    And displacements (k, n_x) of unit length: of the position and velocity of the body, and of each arm of all springs
+    that outlasts a period; of the springs themselves where there is neither.
     """
-    moduli = np.sqrt(np.append(1.0, scaled.rheology.rho))
-    of_springs = np.multiply.outer(moduli, np.sqrt(scaled.springs.w)).ravel()
-    bodies = (scaled.body, scaled.body_across)[: scaled.ways]
-    of_bodies = np.sqrt([[0.0 if one.rigid else one.K for one in bodies], [one.M for one in bodies]])
-    return np.concatenate([np.repeat(of_springs, scaled.ways), np.ravel(of_bodies)])
+    bodies, lasting = (scaled.body, scaled.body_across)[: scaled.ways], np.array(scaled.rheology.theta) > FORGOTTEN
+    K = np.array([0.0 if body.rigid else body.K for body in bodies])
+    rho, M = np.array(scaled.rheology.rho, dtype=float), np.array([body.M for body in bodies])
+    rigid = np.array([body.rigid for body in bodies])
+    return _energy(scaled.springs.w, rho, lasting, rigid, K, M)  # type: ignore[no-any-return]
 
 
-def pushes_of(scaled: ScaledContact, roots: Array) -> Array:
-    """Displacements (k, n_x) of unit length: of each arm of all springs that outlasts a period, and of the position and
-    velocity of the body; of the springs themselves where there is neither.
-    """
-    n, parts, ways = scaled.springs.gap.size, 1 + len(scaled.rheology.rho), scaled.ways
-    vectors, moved = np.arange(roots.size).reshape(-1, ways), []
-    for way, body in enumerate((scaled.body, scaled.body_across)[:ways]):
-        if not body.rigid:
-            moved += [vectors[parts * n + part, way] for part in ((Y, RATE) if body.M else (Y,))]
-    rows = [1 + j for j, theta in enumerate(scaled.rheology.theta) if theta > FORGOTTEN]
-    rows = rows if rows or moved else [0]
-    moved += [vectors[j * n : (j + 1) * n, way] for way in range(ways) for j in rows]
-    pushes = np.zeros((len(moved), roots.size))
-    for push, at in zip(pushes, moved, strict=True):
-        push[at] = 1 / np.linalg.norm(np.atleast_1d(roots[at]))
-    return pushes
+@compiled(nogil=True, error_model="numpy")
+def _energy(w, rho, lasting, rigid, K, M):
+    """Roots and displacements of `energy_of`; rigid, K, M (ways,): of the bodies."""
+    n, parts, ways = w.size, 1 + rho.size, K.size
+    springs = ways * parts * n
+    roots = np.empty(springs + ways * N_BODY)
+    for part in range(parts):
+        for i in range(n):
+            for way in range(ways):
+                roots[ways * (part * n + i) + way] = np.sqrt(w[i] * (rho[part - 1] if part > 0 else 1.0))
+    for way in range(ways):
+        roots[springs + ways * Y + way], roots[springs + ways * RATE + way] = np.sqrt(K[way]), np.sqrt(M[way])
+    pushes, k = np.zeros((ways * (N_BODY + parts), roots.size)), 0
+    for way in range(ways):
+        if not rigid[way]:
+            pushes[k, springs + ways * Y + way] = 1.0 / np.sqrt(K[way])
+            k += 1
+            if M[way] > 0.0:
+                pushes[k, springs + ways * RATE + way] = 1.0 / np.sqrt(M[way])
+                k += 1
+    springs_too = k == 0 and not lasting.any()
+    for way in range(ways):
+        for part in range(parts):
+            if (part > 0 and lasting[part - 1]) or (part == 0 and springs_too):
+                length = 0.0
+                for i in range(n):
+                    length += roots[ways * (part * n + i) + way] ** 2
+                for i in range(n):
+                    pushes[k, ways * (part * n + i) + way] = 1.0 / np.sqrt(length)
+                k += 1
+    return roots, pushes[:k].copy()
 
 
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)

@@ -11,7 +11,7 @@ import numpy as np
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import AT_ONCE, Periods, Stepper
-from mdr.march.periodic.period_map import map_of, on_other_springs, slow_times
+from mdr.march.periodic.period_map import map_of, on_other_springs
 from mdr.march.periodic.settling import LATE, Settling
 from mdr.march.periodic.shooting import SOLVED_TOLERANCE, Found, Shooting, SlowMotions
 from mdr.tools.progress import time_is_over
@@ -46,10 +46,9 @@ def search(
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
     motions about them.
     """
-    n_before, slow = stepper.n_periods, slow_times(stepper.scaled)
-    of = map_of(stepper.scaled)._replace(v=stepper.v, tolerance=stepper.tolerance)
+    n_before, of = stepper.n_periods, map_of(stepper.scaled)._replace(v=stepper.v, tolerance=stepper.tolerance)
     at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
-    memory, most = (one + more * len(slow) for one, more in zip((MEMORY, MOST), A_TIME, strict=True))
+    memory, most = (one + more * of.n_slow for one, more in zip((MEMORY, MOST), A_TIME, strict=True))
     for begin in starts:
         plain, n_trace = 0 if near else UNCOMBINED, len(stepper.room[0])
         shooting = Shooting.begun(of, begin.x, n_trace, memory, plain, most, gain, motions)
@@ -58,7 +57,7 @@ def search(
         motions = shooting.motions
         if (found := shooting.found) is not None:
             orbit = _orbit(found, begin, motions)
-            if found.is_close or slow or orbit.settling.settled:  # waiting for slow motions takes far longer
+            if found.is_close or of.n_slow or orbit.settling.settled:  # waiting for slow motions takes far longer
                 return orbit
     stepper.n_periods = n_before
     return None

@@ -410,14 +410,14 @@ def measured(of, search):
     search.counts[KNOWN] = 1
     if lasts == 0:
         return 1.0 / (1.0 - lengths[0] ** (1.0 / BETWEEN))
-    if of.slowest > 0.0 and largest < STABLE:
+    if of.n_slow > 0 and largest < STABLE:
         return 1.0 / (1.0 - largest)
     short = -onto
     for j in range(lasts):
         short[j, j] += 1.0
     least = made_orthogonal(short, short.copy())[lasts - 1]
     along = 1.0 / max(least - missed - search.changes[LEAST] / PUSH, 1e-300)
-    if of.slowest == 0.0:
+    if of.n_slow == 0:
         return along
     creep = -1.0 / np.expm1(-1.0 / (CREEP * of.slowest))  # few arms are told apart in so short a time
     return creep if of.stable else max(along, creep)
