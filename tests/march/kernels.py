@@ -1,12 +1,15 @@
 """Marches as the kernels do them, and kernels of which the fixed points are known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 from numba import njit
 
 from mdr.march.dynamics.kernel import HEAD, N_T, N_WAYS, Kernel, N, new_trace, trace_of
 from mdr.march.dynamics.state import MarchState
-from mdr.march.periodic.period_map import PeriodMap
-from mdr.march.periodic.shooting import Shooting
+from mdr.march.dynamics.stepper import Stepper
+from mdr.march.periodic.shooting import Options, Shooting
+from mdr.tools.progress import Ticker
 
 
 def marched(scaled, v, n_periods):
@@ -33,19 +36,24 @@ def trimmed(block, v, x, s, n_steps, trace):
     return True
 
 
+class OnAMap(Stepper):
+    """A stepper of such a map, at rest, so that no spring is late."""
+
+    def __init__(self, A, b, edge, tolerance):
+        n = b.size - 2
+        head = np.zeros(HEAD)
+        head[[N, N_T, N_WAYS]] = n, 2, 1
+        self.kernel, self.block = Kernel(trimmed), np.concatenate([head, A.ravel(), b, [edge]])
+        self.v, self.tolerance, self.mean_limit, self.n_periods = 0.0, tolerance, 1.0, 0
+        drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
+        limit = SimpleNamespace(most=np.full(n, 1e300))  # no friction brings a state back
+        self.scaled = SimpleNamespace(drive=drive, body=body, limit=limit, faces=None, in_plane=None, ways=1)
+        self.ticker = Ticker("map")
+
+
 def fixed_point(A, b, x, edge=np.inf, close=1e-10):
-    """What the search of the march makes of such a map at rest, where no spring is late and no friction brings a state
-    back; it knows that it moves slowly in the first two parts of x.
-    """
-    n_x, n = x.size, x.size - 2
-    head = np.zeros(HEAD)
-    head[[N, N_T, N_WAYS]] = n, 2, 1
-    block = np.concatenate([head, A.ravel(), b, [edge]])
-    springs = np.zeros(n), np.arange(n), np.zeros((1, n)), np.full(n, 1e300), np.zeros(n)
-    numbers = {"n_slow": 0, "slowest": 0.0, "stable": False, "mean_limit": 1.0, "hidden_pull": 0.0, "inertia": 1.0}
-    how = {"v": 0.0, "tolerance": 20 * close, "kernel": Kernel(trimmed)}
-    of = PeriodMap(block, *springs, np.ones(n_x), np.eye(n_x)[:2], **numbers, has_face=False, **how)
-    shooting = Shooting.begun(of, x, new_trace(block, 1).size, memory=8, plain=3, most=80)
-    while not shooting.ended:
-        shooting.go_on(100)
-    return shooting.found
+    """What the search of the march makes of such a map, which it knows to move slowly in the first two parts of x."""
+    n_x = x.size
+    start = MarchState(x.copy(), np.zeros((1, n_x - 2)))
+    how = Options(np.ones(n_x), np.eye(n_x)[:2], (), stable=False, memory=8, most=80, at_once=100)
+    return Shooting(OnAMap(A, b, edge, 20 * close), start, how, 3).shoot()

@@ -121,7 +121,7 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
     with monkeypatch.context() as patch:
         without_search(patch)
         untouched = steady(case, v_0, knobs)
-    monkeypatch.setattr("mdr.march.periodic.search.Shooting.found", None)
+    monkeypatch.setattr("mdr.march.periodic.search.Shooting.shoot", lambda *args: None)
     failed = steady(case, v_0, knobs)
     assert failed.cof == untouched.cof
     assert failed.n_periods == untouched.n_periods

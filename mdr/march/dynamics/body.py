@@ -57,41 +57,19 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, ringing: float) ->
         return Body(True, False, 0.0, 0.0, K, h, 0.0, square, none, none, square)
     if ringing * h > 2 * np.pi / RESOLVED or law.T * h > M:  # it rings on what sticks, or that stops it at once
         return Body(False, True, M, C, K, h, ringing, square, none, none, square)
-    rho, rates = law.arms or (np.empty(0), np.empty(0))
-    n = _over_a_step(M, C, K, h, law.T, rho, rates).tolist()
-    free, stuck = ((n[0], n[1]), (n[2], n[3])), ((n[8], n[9]), (n[10], n[11]))
-    return Body(False, False, M, C, K, h, ringing, free, (n[4], n[5]), (n[6], n[7]), stuck)
+    way, way_1, way_2, turn, rate = pushed(C * h / M, K * h**2 / M)
+    free = ((turn, h * way), (-K * h / M * way, rate))
+    # a force f + g t takes off way_1 f h² + way_2 g h³, over M, and way f h + way_1 g h² of the rate;
+    # f = 4 a/h - 6 b/h², g = 12 b/h³ - 6 a/h² has the area a and the moment b
+    area = (h * (4 * way_1 - 6 * way_2) / M, (4 * way - 6 * way_1) / M)
+    moment = ((12 * way_2 - 6 * way_1) / M, (12 * way_1 - 6 * way) / h / M)
+    return Body(False, False, M, C, K, h, ringing, free, area, moment, _stuck(law, h, area, moment))
 
 
 def numbers_of(body: Body) -> list[float]:
     """The numbers of a body, one after the other."""
     parts = *body.free, body.area, body.moment, *body.stuck
     return [*map(float, body[:7]), *(number for pair in parts for number in pair)]
-
-
-@compiled(error_model="numpy")
-def _over_a_step(M, C, K, h, T, rho, rates):  # type: ignore[no-untyped-def]
-    """What a step of h does with a body with mass (12,): the parts of Body from `free` on.
-
-    A force f + g t takes off way_1 f h² + way_2 g h³, over M, and way f h + way_1 g h² of the rate; f = 4 a/h - 6 b/h²,
-    g = 12 b/h³ - 6 a/h² has the area a and the moment b. What sticks moves by p t + q t², p and q of (y, y').
-    """
-    out = np.empty(12)
-    way, way_1, way_2, turn, rate = pushed(C * h / M, K * h**2 / M)
-    out[0], out[1], out[2], out[3] = turn, h * way, -K * h / M * way, rate
-    out[4], out[5] = h * (4 * way_1 - 6 * way_2) / M, (4 * way - 6 * way_1) / M
-    out[6], out[7] = (12 * way_2 - 6 * way_1) / M, (12 * way_1 - 6 * way) / h / M
-    # area and moment of the force by p and q, if all springs stick
-    a_p, a_q, b_p = h**2 / 2 + T * h, h**3 / 3 + T * h**2, h**3 / 3 + T * h**2 / 2
-    b_q = h**4 / 4 + 2 * T * h**3 / 3
-    for j in range(rho.size):
-        phi = phi_of(h * rates[j])
-        a_p, a_q = a_p + rho[j] * h**2 * phi[2], a_q + rho[j] * 2 * h**3 * phi[3]
-        b_p, b_q = b_p + rho[j] * h**3 * (phi[2] - phi[3]), b_q + rho[j] * 2 * h**4 * (phi[3] - phi[4])
-    for row in range(2):
-        p, q = out[4 + row] * a_p + out[6 + row] * b_p, out[4 + row] * a_q + out[6 + row] * b_q
-        out[8 + 2 * row], out[9 + 2 * row] = p / h, 0.5 * (q / h - p)  # by y and y' at the end
-    return out
 
 
 @compiled(error_model="numpy")
@@ -123,6 +101,21 @@ def pushed(c, k):  # type: ignore[no-untyped-def]
     way, slow = np.exp(-p) * phi_of(2.0 * root)[1], phi_of(p)
     way_1 = (slow[1] - way) / q
     return way, way_1, (slow[2] - way_1) / q, np.exp(-p) + p * way, np.exp(-q) - p * way
+
+
+def _stuck(law: Law, h: float, area: Pair, moment: Pair) -> Square:
+    """Derivative of what the force takes off, if all springs stick: they move by p t + q t², p and q of (y, y')."""
+    # of area and moment of the force by p and q
+    T = law.T
+    a_p, a_q, b_p = h**2 / 2 + T * h, h**3 / 3 + T * h**2, h**3 / 3 + T * h**2 / 2
+    b_q = h**4 / 4 + 2 * T * h**3 / 3
+    for rho, rate in zip(*(law.arms or ((), ())), strict=True):
+        phi = phi_of(h * rate)
+        a_p, a_q = a_p + rho * h**2 * phi[2], a_q + 2 * rho * h**3 * phi[3]
+        b_p, b_q = b_p + rho * h**3 * (phi[2] - phi[3]), b_q + 2 * rho * h**4 * (phi[3] - phi[4])
+    rows = [(a * a_p + b * b_p, a * a_q + b * b_q) for a, b in zip(area, moment, strict=True)]
+    first, second = ((float(p / h), float(0.5 * (q / h - p))) for p, q in rows)  # by y and y' at the end
+    return first, second
 
 
 def harmonics_of(

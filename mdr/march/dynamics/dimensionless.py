@@ -222,6 +222,11 @@ class ScaledContact:
         return self.springs.w * self.limit.greatest
 
     @cached_property
+    def order(self) -> NDArray[np.intp]:
+        """Of the springs by rising gaps, (n,)."""
+        return np.argsort(self.springs.gap, kind="stable")
+
+    @cached_property
     def hidden_pull(self) -> float:
         """Way of a pull over a period that is not told from rounding."""
         return self.drive.steps * LOST * (1.0 + float(np.abs(self.springs.gap).max()))

@@ -53,3 +53,33 @@ def within_friction(x, s, most):
         if square > most[i] * most[i]:
             for way in range(ways):
                 x[ways * i + way] *= most[i] / np.sqrt(square)
+
+
+@compiled(nogil=True, error_model="numpy", fastmath=FAST)
+def on_other_springs(xs, gap, order, on, ways):
+    """State vectors (k, n_x) of springs with these gaps (n,), and the order of rising ones, on springs with the gaps
+    `on` (m,): linear between those, and beyond as the first or the last.
+    """
+    k, n, m = len(xs), gap.size, on.size
+    parts = (xs.shape[1] // ways - N_BODY) // n
+    out = np.empty((k, ways * (parts * m + N_BODY)))
+    for j in range(k):
+        for i in range(ways * N_BODY):
+            out[j, ways * parts * m + i] = xs[j, ways * parts * n + i]
+    for i in range(m):
+        first, last = 0, n - 1
+        while last - first > 1:
+            middle = (first + last) // 2
+            if gap[order[middle]] <= on[i]:
+                first = middle
+            else:
+                last = middle
+        a, b = order[first], order[last]
+        apart = gap[b] - gap[a]
+        share = min(max((on[i] - gap[a]) / apart, 0.0), 1.0) if apart > 0.0 else 0.0
+        for j in range(k):
+            for part in range(parts):
+                for way in range(ways):
+                    before, after = xs[j, ways * (part * n + a) + way], xs[j, ways * (part * n + b) + way]
+                    out[j, ways * (part * m + i) + way] = before + share * (after - before)
+    return out

@@ -16,17 +16,17 @@ from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
 from mdr.march.dynamics.dimensionless import ScaledContact, Way
 from mdr.march.dynamics.kernel import new_trace, trace_of
-from mdr.march.dynamics.period_sums import late_share, least_slip
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
 from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
 from mdr.spring.times import tools_for
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import Ticker, time_is_over
 
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
+WITH_IT = 0.5  #: of the way of the pull, on which a spring may go with it or lose and still count as slipping as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -71,8 +71,13 @@ class Stepper:
 
     @cached_property
     def room(self) -> tuple[Array, loop.Trace]:
-        """The trace of the last period, flat and by its names; overwritten by the next march."""
+        """Room for the trace of a period, flat and by its names."""
         return self.new_room(1)
+
+    @property
+    def last(self) -> loop.Trace:
+        """The last period, overwritten by the next march."""
+        return self.room[1]
 
     def full_slip(self) -> MarchState:
         """The state of full slip at phase 0; of a body without its free oscillation."""
@@ -118,8 +123,9 @@ class Stepper:
         pull = 2 * np.pi * self.v
         if pull <= self.scaled.hidden_pull:
             return UNKNOWN if pull else 0.0
-        share = late_share(before.x, after.x, self.block, self.scaled.bears, n_periods * pull)
-        return float(share) / self.mean_limit
+        went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
+        late = np.abs(went) > WITH_IT * n_periods * pull
+        return 2 * float(self.scaled.bears @ late) / self.mean_limit
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""
@@ -128,7 +134,7 @@ class Stepper:
         self.solved = self.kernel(self.block, self.v, state.x, state.s, n_steps, flat)
         self.count(n_periods)
         if n_periods > 1:
-            for of, last in zip(trace, self.room[1], strict=True):
+            for of, last in zip(trace, self.last, strict=True):
                 last[:] = of[-len(last) :]
         return trace
 
@@ -148,11 +154,23 @@ class Stepper:
         cof = area.sum(axis=1) / (2 * np.pi * self.mean_limit)
         return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
 
-    def least_slip(self) -> float:
-        """Least velocity, the way of the pull, of springs that slip all the time, in the last period that was marched;
-        zero if some do not. A shear strength of the face hides it.
+    def cof_of(self, trace: loop.Trace) -> tuple[float, float]:
+        """Mean force along the pull and across it, of a period, over that of full slip: COFs over mu_0."""
+        cof = complex(trace.area.sum()) / (2 * np.pi * self.mean_limit)
+        return cof.real, cof.imag
+
+    def least_slip(self, trace: loop.Trace) -> float:
+        """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not. A
+        step in which contact begins counts as a whole, if it is not cut there.
         """
-        return 0.0 if self.scaled.faces else float(least_slip(self.room[0], self.block, self.mean_limit))
+        if self.scaled.faces or not abs(1 - self.cof_of(trace)[0]) <= EXACT:
+            return 0.0
+        (z, z_dot, *_), h = self.motion, self.scaled.drive.h
+        z_2 = np.diff(z_dot) / (2 * h)
+        length, x_1, x_2 = trace.parts[:, 1].real.T
+        first = x_1 - np.diff(z) / h + z_2 * h - 2 * z_2 * (h - length)
+        last = first + 2 * (x_2 - z_2) * length
+        return float(np.minimum(first, last).min(where=trace.area.real > 0, initial=np.inf))
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""

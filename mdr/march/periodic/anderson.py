@@ -10,68 +10,73 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.periodic.period_map import marched
-from mdr.spring.copies import copy
+from mdr.march.dynamics.kernel import N_T
+from mdr.march.dynamics.state import within_friction
+from mdr.spring.copies import copy, put
 from mdr.spring.path import OWN
 from mdr.tools.anderson import shares
 from mdr.tools.arrays import Array
-from mdr.tools.jit import inner
+from mdr.tools.jit import compiled, inner
 
 PATIENCE = 30  #: periods without a smaller change, or with steps that were not solved for, after which it gives up
 GROWTH = 4.0  #: of the change over the least seen, at which combinations start anew
 
 # states of a search: that which the next period starts from; that from which the last one did; what it came to; how far
-# that was, measured; the image that moved least; the last image, and what was its move; the best one that was come to
-# before it was corrected; and the one that was found (shooting.py)
-X, START, IMAGE, MOVED, BEST, LAST, LAST_MOVED, SOUGHT, FOUND, STATES = range(10)
+# that was, measured; the image that moved least; the last image, and what was its move
+X, START, IMAGE, MOVED, BEST, LAST, LAST_MOVED, STATES = range(8)
 IMAGES, MOVES = range(2)  # what is kept of the past: from image to image, oldest first; from move to move, measured
 # counts: periods so far, those combined now, the one that moved least, the last ones with an unsolved step; whether it
-# has ended; periods before the first combination, and after which it gives up; all that were marched; and of shooting:
-# its phase, whether slow motions are known, corrections so far, and those in a row that were no gain
-PERIODS, KEPT, SINCE, UNSOLVED, ENDED, PLAIN, MOST, MARCHED, PHASE, KNOWN, TURN, MISSED, COUNTS = range(13)
+# has ended; periods before the first combination, and after which it gives up
+PERIODS, KEPT, SINCE, UNSOLVED, ENDED, PLAIN, MOST, COUNTS = range(8)
 # changes over a period, over the size of the state: the least of those combined, the least of all, and that at which it
 # ends
 LEAST_KEPT, LEAST, ENOUGH, CHANGES = range(4)
-LAST_PERIOD, OTHER = range(2)  # traces: of Anderson's last period, that others must not overwrite, and of any other
 
 _FAST = {"reassoc", "contract"}
 _inner = inner(error_model="numpy", fastmath=_FAST, **OWN)
 
 
 class Search(NamedTuple):
-    """A search on its way, updated in place, of states of n_x numbers that k pushes move slowly."""
+    """A search on its way, updated in place."""
 
     states: Array  #: (STATES, n_x)
     past: Array  #: (2, memory, n_x)
     counts: NDArray[np.int64]  #: (COUNTS,)
     changes: Array  #: (CHANGES,)
-    traces: Array  #: (2, n_trace) flat
-    slow: Array  #: (2, k, n_x) displacements that outlive a few periods, and what they are a period later
-    signs: Array  #: (k,) of the pushes
-    told: Array  #: what shooting knows and has found
+
+    @classmethod
+    def of(cls, n_x: int, memory: int, plain: int, most: int) -> Search:
+        """One that combines so many periods; to be begun."""
+        counts = np.zeros(COUNTS, dtype=np.int64)
+        counts[PLAIN], counts[MOST] = plain, most
+        past = np.empty((2, memory - 1, n_x))
+        return cls(np.zeros((STATES, n_x)), past, counts, np.zeros(CHANGES))
+
+    def begin(self, x: Array, enough: float) -> None:
+        """Begin at this state; it ends where a period changes no more than is enough."""
+        self.states[X] = x
+        self.counts[: ENDED + 1] = 0
+        self.changes[:ENOUGH], self.changes[ENOUGH] = np.inf, enough
 
 
-@_inner
-def begin(search, x, enough):
-    """Begin a search at a state; it ends where a period changes no more than is enough."""
-    counts, changes = search.counts, search.changes
-    copy(x, search.states[X])
-    counts[PERIODS] = counts[KEPT] = counts[SINCE] = counts[UNSOLVED] = counts[ENDED] = 0
-    changes[LEAST_KEPT] = changes[LEAST] = np.inf
-    changes[ENOUGH] = enough
+@compiled(nogil=True, error_model="numpy", fastmath=_FAST)
+def seek(kernel, block, v, s, most, roots, n_periods, trace, states, past, counts, changes):
+    """Go on with a search for so many periods at most, each begun within the cone of friction.
 
-
-@_inner
-def seek(of, search, n_periods):
-    """Go on with a search for so many periods at most of a PeriodMap, each begun within the cone of friction."""
-    states, counts, changes = search.states, search.counts, search.changes
+    kernel, block, v: what is marched (kernel.py); s (1 + J, n): compressions at phase 0, most (n,): the longest that
+    extensions can be there; roots (n_x,): of stiffness and mass, a state times them is as long as the root of its
+    energy. trace: flat, of the last period.
+    """
+    n_t, room = int(block[N_T]), np.empty_like(s)
     for _ in range(n_periods):
         if counts[ENDED]:
             break
+        put(s, room)
+        within_friction(states[X], room, most)
         copy(states[X], states[START])
-        solved = marched(of, states[START], states[IMAGE], search.traces[LAST_PERIOD])
-        counts[MARCHED] += 1
-        counts[ENDED] = combine(of.roots, states, search.past, counts, changes)
+        copy(states[X], states[IMAGE])
+        solved = kernel(block, v, states[IMAGE], room, n_t, trace)
+        counts[ENDED] = combine(roots, states, past, counts, changes)
         counts[UNSOLVED] = 0 if solved else counts[UNSOLVED] + 1
         if counts[UNSOLVED] > PATIENCE:
             changes[LEAST], counts[ENDED] = np.nan, 1

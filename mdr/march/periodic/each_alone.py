@@ -22,8 +22,7 @@ import numpy as np
 
 from mdr.march.dynamics.state import MarchState
 from mdr.march.dynamics.stepper import Stepper
-from mdr.march.periodic.period_map import FORGOTTEN
-from mdr.march.periodic.search import Orbit
+from mdr.march.periodic.search import FORGOTTEN, Orbit
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.solver import Solver, iterate
 from mdr.tools.arrays import Array
@@ -96,13 +95,13 @@ class _Springs:
     def found(self, x: Array, off: float) -> Orbit | None:
         """The periodic state next to one that is off by so much; None where springs are late."""
         state, stepper = self._state(x), self.stepper
-        end, periods = stepper.advance(state, 1)
+        end = stepper.period(state.copy())
         if stepper.late(state, end, 1) > stepper.tolerance:
             return None
-        cof, cof_y = float(periods.cof[-1]), float(periods.cof_y[-1])
+        cof, cof_y = stepper.cof_of(stepper.last)
         spread = 2 * off / stepper.mean_limit
         settling = Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y)
-        return Orbit(end, periods, settling, stepper.least_slip())
+        return Orbit(end, settling, stepper.least_slip(stepper.last))
 
     def _state(self, x: Array) -> MarchState:
         parts = self.like.e.shape[0]

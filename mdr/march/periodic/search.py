@@ -5,17 +5,21 @@ energy of springs, system spring and mass.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from mdr.march.dynamics.body import RATE, Y
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.state import UNKNOWN, MarchState
-from mdr.march.dynamics.stepper import AT_ONCE, Periods, Stepper
-from mdr.march.periodic.period_map import map_of, on_other_springs
+from mdr.march.dynamics.state import UNKNOWN, MarchState, on_other_springs
+from mdr.march.dynamics.stepper import AT_ONCE, Stepper
 from mdr.march.periodic.settling import LATE, Settling
-from mdr.march.periodic.shooting import SOLVED_TOLERANCE, Found, Shooting, SlowMotions
-from mdr.tools.progress import time_is_over
+from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Found, Options, Shooting, SlowMotions
+from mdr.tools.arrays import Array
 
+FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
+SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
 MEMORY, MOST = 8, 80  #: periods that Anderson's method combines, and after which it gives up
 A_TIME = (3, 20)  #: how many more of both each slow time of a material gets
@@ -26,10 +30,9 @@ UNCOMBINED = 3  #: periods marched before the first combination, while springs f
 class Orbit:
     """A periodic state that was found."""
 
-    state: MarchState  #: at the end of the period that `period` tells of
-    period: Periods
+    state: MarchState
     settling: Settling
-    least_slip: float = 0.0  #: in that period, the way of the pull, of springs that slip all the time
+    least_slip: float = 0.0  #: in the period before it, the way of the pull, of springs that slip all the time
     motions: SlowMotions | None = None  #: the slow ones about it, where they are known
 
 
@@ -46,33 +49,51 @@ def search(
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
     motions about them.
     """
-    n_before, of = stepper.n_periods, map_of(stepper.scaled)._replace(v=stepper.v, tolerance=stepper.tolerance)
-    at_once = max(1, AT_ONCE // stepper.scaled.drive.steps)
-    memory, most = (one + more * of.n_slow for one, more in zip((MEMORY, MOST), A_TIME, strict=True))
-    for begin in starts:
-        plain, n_trace = 0 if near else UNCOMBINED, len(stepper.room[0])
-        shooting = Shooting.begun(of, begin.x, n_trace, memory, plain, most, gain, motions)
-        while not (shooting.ended or time_is_over()):
-            stepper.count(shooting.go_on(at_once))
+    n_before, how, plain = stepper.n_periods, _how(stepper.scaled), 0 if near else UNCOMBINED
+    for start in starts:
+        shooting = Shooting(stepper, start, how, plain)
+        shooting.gain, shooting.motions = gain, motions
+        found = shooting.shoot()
         motions = shooting.motions
-        if (found := shooting.found) is not None:
-            orbit = _orbit(found, begin, motions)
-            if found.is_close or of.n_slow or orbit.settling.settled:  # waiting for slow motions takes far longer
+        if found is not None:
+            orbit = _orbit(found, start, shooting.motions)
+            if found.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer
                 return orbit
     stepper.n_periods = n_before
     return None
 
 
+@lru_cache(maxsize=32)
+def _how(scaled: ScaledContact) -> Options:
+    """How to look for the periodic state of a contact, at any velocity."""
+    slow, (roots, pushes) = _slow_times(scaled), _energy_of(scaled)
+    stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
+    memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
+    at_once = max(1, AT_ONCE // scaled.drive.steps)
+    return Options(roots, pushes, slow, stable, memory, most, at_once)
+
+
+def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
+    """Relaxation times, in periods, of what a period does not relax: arms, a dashpot, the pull."""
+    slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
+    if 2 * np.pi < scaled.law.T:
+        slow += (scaled.law.T / (2 * np.pi),)
+    if slow and scaled.body.C:
+        slow += (scaled.body.M / (np.pi * scaled.body.C) / CREEP,)
+    if scaled.body.pull_time > SLOW_PULL:
+        slow += (2 * scaled.body.pull_time / CREEP,)  # a material may be slower than is seen; this is known
+    return slow
+
+
 def _orbit(found: Found, like: MarchState, motions: SlowMotions | None) -> Orbit:
     """The periodic state that a search has come to."""
-    (cof,), _, (cof_y,) = (column.tolist() for column in found.period)
     if found.spread <= SOLVED_TOLERANCE and not found.late:
-        settling = Settling(cof, found.spread, True, "periodic", found.gain, across=cof_y)
+        settling = Settling(found.cof, found.spread, True, "periodic", found.gain, across=found.cof_y)
     else:
         why = LATE if found.late else "a periodic state was found, but not how far it may be from the exact one"
         spread = UNKNOWN if found.late else min(found.spread, UNKNOWN)
-        settling = Settling(cof, spread, False, "unsettled", found.gain, why, across=cof_y)
-    return Orbit(MarchState(found.state, like.s.copy()), found.period, settling, found.least_slip, motions)
+        settling = Settling(found.cof, spread, False, "unsettled", found.gain, why, across=found.cof_y)
+    return Orbit(MarchState(found.state, like.s.copy()), settling, found.least_slip, motions)
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:
@@ -85,11 +106,11 @@ def at_other_resolution(
     state: MarchState, motions: SlowMotions | None, of: ScaledContact, on: ScaledContact
 ) -> tuple[MarchState, SlowMotions | None]:
     """A state of a march with other springs or steps, and the slow motions about it, on those of this one."""
-    xs, springs = state.x[None], map_of(of)
+    xs, gap = state.x[None], of.springs.gap
     if motions is not None:
         xs = np.concatenate([xs, motions.before, motions.after])
-    if springs.gap.size != on.springs.gap.size or not np.array_equal(springs.gap, on.springs.gap):
-        xs = on_other_springs(xs, springs.gap, springs.order, on.springs.gap, on.ways)
+    if gap.size != on.springs.gap.size or not np.array_equal(gap, on.springs.gap):
+        xs = on_other_springs(xs, gap, of.order, on.springs.gap, on.ways)
     if motions is not None:
         k = len(motions.before)
         motions = SlowMotions(xs[1 : 1 + k], xs[1 + k :])
@@ -100,3 +121,27 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
     """The gain of a march with other springs or steps, whose multipliers differ by h²; None where that may be much."""
     h = max(one.drive.h, other.drive.h)
     return gain / (1 - gain * h**2) if gain is not None and gain * h**2 < SAME_GAIN else None
+
+
+def _energy_of(scaled: ScaledContact) -> tuple[Array, Array]:
+    """Roots (n_x,) of the stiffness of every spring, of every arm of it and of the pull, and of the mass, in each
+    direction: a state vector times them is as long as the root of its energy.
+
+    And displacements (k, n_x) of unit length: of the position and velocity of the body, and of each arm of all springs
+    that outlasts a period; of the springs themselves where there is neither.
+    """
+    ways, rheology, bodies = scaled.ways, scaled.rheology, (scaled.body, scaled.body_across)[: scaled.ways]
+    of_springs = np.multiply.outer(np.sqrt((1.0, *rheology.rho)), np.sqrt(scaled.springs.w))
+    of_bodies = [[0.0 if one.rigid else one.K for one in bodies], [one.M for one in bodies]]
+    roots = np.concatenate([np.repeat(of_springs.ravel(), ways), np.sqrt(of_bodies).ravel()])
+    n, body = of_springs.shape[1], ways * of_springs.size  # places of springs, and of the body
+    moved: list[Any] = []
+    for way, one in enumerate(bodies):
+        moved += [body + ways * part + way for part in ((Y, RATE) if one.M else () if one.rigid else (Y,))]
+    parts = [1 + j for j, theta in enumerate(rheology.theta) if theta > FORGOTTEN]
+    parts = parts if parts or moved else [0]
+    moved += [slice(ways * j * n + way, ways * (j + 1) * n, ways) for way in range(ways) for j in parts]
+    pushes = np.zeros((len(moved), roots.size))
+    for push, at in zip(pushes, moved, strict=True):
+        push[at] = 1 / np.sqrt(np.sum(roots[at] ** 2))
+    return roots, pushes

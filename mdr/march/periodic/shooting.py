@@ -18,58 +18,35 @@ the change smaller; the springs follow by marching.
 
 A search stops when the change in a period is so small that the error of the COF is below the tolerance. This limit
 follows from the gain as known before. If the gain turns out to be larger, the search goes on to a smaller change.
-
-The search is compiled, and goes from one phase to the next (`shoot`), so that the clock can be looked at between them.
 """
 
-# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.period_sums import late_share, least_slip, mean_and_swing
-from mdr.march.dynamics.state import UNKNOWN
-from mdr.march.dynamics.stepper import Periods
+from mdr.march.dynamics.state import MarchState
+from mdr.march.dynamics.stepper import Stepper
 from mdr.march.periodic.anderson import (
     BEST,
-    CHANGES,
-    COUNTS,
     ENDED,
     ENOUGH,
-    FOUND,
-    IMAGE,
     IMAGES,
     KEPT,
-    KNOWN,
-    LAST_PERIOD,
     LEAST,
-    MARCHED,
-    MISSED,
-    MOST,
     MOVES,
-    OTHER,
     PERIODS,
-    PHASE,
-    PLAIN,
     SINCE,
-    SOUGHT,
     START,
-    STATES,
-    TURN,
     Search,
-    begin,
     seek,
 )
-from mdr.march.periodic.period_map import CREEP, PeriodMap, marched
-from mdr.spring.copies import copy
-from mdr.spring.path import FAST, OWN
-from mdr.tools.anderson import shares
+from mdr.march.periodic.solver import OutOfTime
 from mdr.tools.arrays import EXACT, Array
-from mdr.tools.jit import compiled, inner
-from mdr.tools.linear_maps import made_orthogonal, spectral_radius
+from mdr.tools.progress import time_is_over
 
 FULL = EXACT  #: what is missing in the COF in full slip
 SHARE = 20.0  #: safety: a search first stops at a change of tolerance/(SHARE gain); COFs are off by twice the distance
@@ -80,21 +57,13 @@ PUSH = 1e-4  #: displacement of the body, over the size of the state
 FARTHEST = 0.1  #: the same, where the motion has kinks
 BETWEEN = 2  #: periods between a push and the measurement, in which springs fall in with the body
 DIED_OUT = 1e-5  #: of a push: what is left of it is not told from what a step of the march leaves unsolved
+CREEP = 10.0  #: what outlives the slowest time of a material at most, as strain outlives stress
 EXPANDS = 1.01  #: multiplier from which on a map is not one of friction
 STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms make hard to tell apart
 AGES = 1e6  #: periods that full slip must last to count as periodic
 TURNS = 30  #: corrections of the Newton-Picard method
 SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes on without it
 LOST = 5  #: corrections in a row of which no share was a gain, after which it ends
-
-# phases: a start, Anderson's method, Newton-Picard, what the best state is worth, the end
-BEGIN, SEEK, CORRECT, WEIGH, DONE = range(5)
-# numbers of a search: bound on the distance from the periodic state over the change in a period, if it is known
-# beforehand; the change at which Anderson's method ends; the next push; whether a state was found, and of that its
-# parts in Found
-GAIN, ENDS, NEXT_PUSH, IS_FOUND, COF, COF_Y, SWING, SLIP, GAINED, SPREAD, LATE, IS_CLOSE, NUMBERS = range(13)
-
-_inner = inner(error_model="numpy", fastmath=FAST, **OWN)
 
 
 class SlowMotions(NamedTuple):
@@ -106,11 +75,26 @@ class SlowMotions(NamedTuple):
     after: Array
 
 
-class Found(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Options:
+    """How to look for a periodic state, of n_x numbers."""
+
+    roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
+    pushes: Array  #: (k, n_x) displacements of unit length along slow motions
+    slow: tuple[float, ...]  #: relaxation times of material and pull, in periods, that a period does not relax
+    stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
+    memory: int  #: periods that Anderson's method combines
+    most: int  #: periods after which it gives up
+    at_once: int  #: periods between two looks at the clock
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
     """A periodic state that was found."""
 
     state: Array  #: (n_x,) at the end of the period that is told
-    period: Periods
+    cof: float  #: over mu_0, in that period
+    cof_y: float  #: the same across the pull
     least_slip: float  #: in that period, the way of the pull, of springs that slip all the time
     gain: float  #: bound on the distance from the exact one, over the change in a period
     spread: float  #: bound on the error of the COF over mu_0
@@ -118,362 +102,198 @@ class Found(NamedTuple):
     is_close: bool  #: whether it is as close as is asked for
 
 
-@dataclass(frozen=True, eq=False)
 class Shooting:
-    """A search for the periodic state of a march."""
+    """A search for the periodic state of a march, from a state on.
 
-    of: PeriodMap
-    search: Search
+    plain: periods before the first combination, while springs find their modes.
+    """
 
-    @classmethod
-    def begun(
-        cls,
-        of: PeriodMap,
-        x: Array,
-        n_trace: int,
-        memory: int,
-        plain: int,
-        most: int,
-        gain: float | None = None,
-        motions: SlowMotions | None = None,
-    ) -> Shooting:
-        """One from the state x on.
+    def __init__(self, stepper: Stepper, start: MarchState, how: Options, plain: int) -> None:
+        self.stepper, self.how, self.start, self.s = stepper, how, start.x, start.s
+        self.search = Search.of(start.x.size, how.memory, plain, how.most)
+        self.flat, self.trace = stepper.new_room(1)  # of Anderson's last period, that pushes must not overwrite
+        #: bound on the distance from the periodic state over the change in a period, if it is known beforehand; what is
+        #: measured depends on how close a state has come
+        self.gain: float | None = None
+        self.motions: SlowMotions | None = None  #: the slow ones about it, where they are known
+        self.found: Found | None = None
 
-        n_trace: size of a flat trace. memory: periods that Anderson's method combines; plain: periods before the first
-        combination, while springs find their modes; most: periods after which it gives up. gain: bound on the distance
-        from the periodic state over the change in a period, if it is known beforehand: what is measured depends on how
-        close a state has come. motions: the slow ones about it, where they are known.
+    def shoot(self) -> Found | None:
+        """The periodic state, close enough or the best that there is."""
+        with suppress(OutOfTime):
+            self._come_closer()
+        return self.found
+
+    def _come_closer(self) -> None:
+        """Search for ever smaller changes, until what is found is close enough, or comes no closer."""
+        stepper, search, x = self.stepper, self.search, self.start
+        close = stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
+        while True:
+            self._begin(x, close)
+            if not self._sought():
+                return
+            best = search.states[BEST].copy()
+            last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
+            if last and (slip := self._slip_for_good()):
+                cofs = stepper.cof_of(self.trace)
+                self.found = Found(best, *cofs, slip, np.inf, 0.0, late=False, is_close=True)
+                return
+            if search.changes[LEAST] > search.changes[ENOUGH]:
+                last = False
+                self._correct()
+            near = search.changes[LEAST] <= max(search.changes[ENOUGH], CLOSE)
+            gain = self.gain
+            if near and gain is None:
+                gain = self._measured()
+            if not near or gain is None:
+                if close <= CLOSE:
+                    return
+                x, close = best, CLOSE
+                continue
+            self.found = found = self._told(last, close, gain)
+            if found.is_close or close <= CLOSEST or time_is_over():
+                return
+            x, close = search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
+
+    def _begin(self, x: Array, close: float) -> None:
+        """Seek from a state on; what is known of slow motions is combined from the first period on."""
+        search = self.search
+        search.begin(x, max(close, CLOSEST))
+        if self.motions is not None:
+            k = min(len(self.motions.after), search.past.shape[1])
+            before, after = (of[:k] for of in self.motions)
+            search.past[IMAGES, :k], search.past[MOVES, :k] = after, self.how.roots * (after - before)
+            search.counts[KEPT] = k
+
+    def _sought(self) -> bool:
+        """Whether Anderson's method has come to its end in time, with a state."""
+        stepper, search = self.stepper, self.search
+        most, how = stepper.scaled.limit.most, self.how
+        marched = stepper.kernel, stepper.block, stepper.v, self.s, most, how.roots, how.at_once, self.flat
+        while not search.counts[ENDED]:
+            if time_is_over():
+                return False
+            before = int(search.counts[PERIODS])
+            seek(*marched, *search)
+            stepper.count(int(search.counts[PERIODS]) - before)
+        return bool(np.isfinite(search.changes[LEAST]))
+
+    def _period(self, x: Array) -> Array:
+        """The state a period later, which begins within the cone of friction. Raises OutOfTime."""
+        if time_is_over():
+            raise OutOfTime
+        return self.stepper.period(self.stepper.within_friction(MarchState(x.copy(), self.s.copy()))).x
+
+    def _length(self, x: Array) -> float:
+        """Root of the energy of a state."""
+        return float(np.linalg.norm(self.how.roots * x))
+
+    def _slip_for_good(self) -> float:
+        """The least slip velocity of the best state if it is one of full slip that is more than AGES times what changes
+        over a period; else zero. It need not be close to the exact periodic state: the COF is the same.
+
+        Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
         """
-        counts, told, k = np.zeros(COUNTS, dtype=np.int64), np.zeros(NUMBERS), len(of.pushes)
-        counts[PLAIN], counts[MOST], counts[KNOWN] = plain, most, motions is not None
-        told[GAIN] = np.nan if gain is None else gain
-        told[ENDS] = of.tolerance / (SHARE * (gain or max(1.0, of.slowest)))
-        slow = np.empty((2, k, x.size)) if motions is None else np.array(motions)
-        search = Search(
-            np.zeros((STATES, x.size)),
-            np.empty((2, memory - 1, x.size)),
-            counts,
-            np.zeros(CHANGES),
-            np.zeros((2, n_trace)),
-            slow,
-            np.ones(k),
-            told,
-        )
-        search.states[BEST] = x
-        counts[PHASE] = BEGIN
-        return cls(of, search)
+        search, stepper, body = self.search, self.stepper, self.stepper.scaled.body
+        if not (least := stepper.least_slip(self.trace)):
+            return 0.0
+        drift = float(search.changes[LEAST]) * self._length(search.states[BEST])
+        drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
+        return least if AGES * drift < least < np.inf else 0.0
 
-    def go_on(self, n_periods: int) -> int:
-        """Go on for about so many periods; how many it were."""
-        counts = self.search.counts
-        before = int(counts[MARCHED])
-        shoot(self.of[:-3], *self.of[-3:], tuple(self.search), n_periods)
-        return int(counts[MARCHED]) - before
+    def _told(self, last: bool, close: float, gain: float) -> Found:
+        """The COF of the periodic state, and how far it may be from that of the exact one.
 
-    @property
-    def ended(self) -> bool:
-        """Whether what is found is close enough, or comes no closer."""
-        return bool(self.search.counts[PHASE] == DONE)
+        last: whether the last period that was marched is its own.
+        """
+        stepper, search = self.stepper, self.search
+        begin, state, trace = search.states[START].copy(), search.states[BEST].copy(), self.trace
+        if not last:
+            begin = stepper.within_friction(MarchState(state, self.s)).x
+            state, trace = self._period(begin), stepper.last
+        cofs = stepper.cof_of(trace)
+        # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
+        distance = (float(search.changes[LEAST]) + 1e-15) * gain  # 1e-15: rounding
+        spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_limit
+        ends = MarchState(begin, self.s), MarchState(state, self.s)
+        late = stepper.v > 0 and stepper.late(*ends, 1) > stepper.tolerance
+        settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
+        nearly_full = FULL < 1 - cofs[0] < SOLVED_TOLERANCE  # it has to be told from nothing
+        is_close = settled and (close <= CLOSE or not nearly_full)
+        return Found(state, *cofs, stepper.least_slip(trace), gain, spread, late, bool(is_close))
 
-    @property
-    def motions(self) -> SlowMotions | None:
-        """The slow motions about the state, where they are known."""
-        return SlowMotions(*self.search.slow) if self.search.counts[KNOWN] else None
+    def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
+        """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
+        what its pushes have become then (2, k, n_x), as displacements from there; their length.
 
-    @property
-    def found(self) -> Found | None:
-        """The periodic state, close enough or the best that there is; None where none was found."""
-        told, state = self.search.told.tolist(), self.search.states[FOUND]
-        if not told[IS_FOUND]:
+        ways (k,): signs.
+        """
+        best = self.search.states[BEST]
+        size = push * (self._length(best) or 1.0)  # of a state that is nothing, as in flight, the unit
+        x = np.concatenate([best[None], best + size * ways[:, None] * self.how.pushes])
+        pairs = np.empty((2, *x.shape))
+        for j, one in enumerate(x):
+            for _ in range(BETWEEN):
+                one = self._period(one)
+            pairs[:, j] = one, self._period(one)
+        return pairs[:, 0], pairs[:, 1:] - pairs[:, :1], size
+
+    def _measured(self) -> float | None:
+        """Bound on the distance to the fixed point over the change over a period, of a state that returns so closely
+        that its own change is small beside a push, and blurs what is seen of it; None for a map that expands.
+        """
+        roots, slow = self.how.roots, max(self.how.slow, default=0.0)
+        _, moved, size = self._pushed(np.ones(len(self.how.pushes)), PUSH)
+        before, after = moved * roots / size
+        if not np.isfinite(moved).all():
             return None
-        period = Periods(*(self.search.told[at : at + 1].copy() for at in (COF, SWING, COF_Y)))
-        return Found(state, period, told[SLIP], told[GAINED], told[SPREAD], bool(told[LATE]), bool(told[IS_CLOSE]))
+        left, lengths, right = np.linalg.svd(before.T, full_matrices=False)
+        lasts = lengths > DIED_OUT
+        if not lasts.any():
+            self.motions = SlowMotions(*moved)
+            return float(1 / (1 - lengths[0] ** (1 / BETWEEN)))
+        images = after.T @ right[lasts].T / lengths[lasts]
+        onto = left[:, lasts].T @ images
+        missed = float(np.linalg.norm(images - left[:, lasts] @ onto, axis=0).max())
+        largest = float(np.abs(np.linalg.eigvals(onto)).max())
+        if largest > EXPANDS:
+            return None
+        self.motions = SlowMotions(*moved)
+        if slow and largest < STABLE:
+            return 1 / (1 - largest)
+        least = float(np.linalg.svd(np.eye(len(onto)) - onto, compute_uv=False)[-1])
+        along = 1 / max(least - missed - float(self.search.changes[LEAST]) / PUSH, 1e-300)
+        if not slow:
+            return along
+        creep = -1 / float(np.expm1(-1 / (CREEP * slow)))  # few arms are told apart in so short a time
+        return creep if self.how.stable else max(along, creep)
 
+    def _correct(self) -> None:
+        """Newton-Picard corrections of the best state along the pushed motions, for one of less change over a period.
 
-@compiled(nogil=True, error_model="numpy", fastmath=FAST)
-def shoot(contact, v, tolerance, kernel, search, n_periods):
-    """Go on with a search for ever smaller changes, for about so many periods.
-
-    contact: the first parts of the PeriodMap; search: Search. Plain tuples: numba is slow to tell the types of others.
-    """
-    of, search = PeriodMap(*contact, v, tolerance, kernel), Search(*search)  # type: ignore[call-arg]
-    counts = search.counts
-    until = counts[MARCHED] + n_periods
-    while counts[PHASE] != DONE and counts[MARCHED] < until:
-        if counts[PHASE] == BEGIN:
-            start(of, search)
-        elif counts[PHASE] == SEEK:
-            seek(of, search, until - counts[MARCHED])
-            if counts[ENDED]:
-                sought(of, search)
-        elif counts[PHASE] == CORRECT:
-            correct(of, search)
-        else:
-            weigh(of, search)
-
-
-@_inner
-def start(of, search):
-    """Seek from the best state on; what is known of slow motions is combined from the first period on."""
-    counts, past = search.counts, search.past
-    begin(search, search.states[BEST], max(search.told[ENDS], CLOSEST))
-    if counts[KNOWN]:
-        k = min(search.slow.shape[1], past.shape[1])
-        for j in range(k):
-            for i in range(past.shape[2]):
-                before, after = search.slow[0, j, i], search.slow[1, j, i]
-                past[IMAGES, j, i], past[MOVES, j, i] = after, of.roots[i] * (after - before)
-        counts[KEPT] = k
-    counts[PHASE] = SEEK
-
-
-@_inner
-def sought(of, search):
-    """What comes after Anderson's method."""
-    counts, changes, told = search.counts, search.changes, search.told
-    counts[PHASE] = DONE
-    if not np.isfinite(changes[LEAST]):
-        return
-    copy(search.states[BEST], search.states[SOUGHT])
-    if is_last(counts):
-        slip = slip_for_good(of, search)
-        if slip > 0.0:
-            tell(of, search, search.traces[LAST_PERIOD])
-            copy(search.states[BEST], search.states[FOUND])
-            told[SLIP], told[GAINED], told[SPREAD], told[LATE], told[IS_CLOSE] = slip, np.inf, 0.0, 0.0, 1.0
-            return
-    counts[PHASE], counts[TURN], counts[MISSED], told[NEXT_PUSH] = WEIGH, 0, 0, PUSH
-    if changes[LEAST] > changes[ENOUGH]:
-        counts[PHASE], counts[SINCE] = CORRECT, -1  # the last period is not that of the best state any more
-        search.signs[:] = 1.0
-
-
-@_inner
-def is_last(counts):
-    """Whether the last period of Anderson's method is that of the best state."""
-    return counts[SINCE] == counts[PERIODS] - 1
-
-
-@_inner
-def weigh(of, search):
-    """Tell what the best state is worth, and whether to look for one with a smaller change."""
-    states, counts, changes, told = search.states, search.counts, search.changes, search.told
-    gain, near = told[GAIN], changes[LEAST] <= max(changes[ENOUGH], CLOSE)
-    if near and np.isnan(gain):
-        gain = measured(of, search)
-    if near and not np.isnan(gain):
-        weighed(of, search, gain)
-        counts[PHASE] = DONE if told[IS_CLOSE] or told[ENDS] <= CLOSEST else BEGIN
-        told[ENDS] *= min(0.01, of.tolerance / (SHARE * told[SPREAD] + 1e-300))
-        return
-    counts[PHASE] = DONE if told[ENDS] <= CLOSE else BEGIN
-    copy(states[SOUGHT], states[BEST])
-    told[ENDS] = CLOSE
-
-
-@_inner
-def length(of, x):
-    """Root of the energy of a state."""
-    square = 0.0
-    for i in range(x.size):
-        square += (of.roots[i] * x[i]) ** 2
-    return np.sqrt(square)
-
-
-@_inner
-def distance(of, x, y):
-    """Root of the energy of a difference."""
-    square = 0.0
-    for i in range(x.size):
-        square += (of.roots[i] * (x[i] - y[i])) ** 2
-    return np.sqrt(square)
-
-
-@_inner
-def slip_for_good(of, search):
-    """The least slip velocity of the best state if it is one of full slip that is more than AGES times what changes
-    over a period; else zero. It need not be close to the exact periodic state: the COF is the same.
-
-    Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
-    """
-    least = 0.0 if of.has_face else least_slip(search.traces[LAST_PERIOD], of.block, of.mean_limit)
-    drift = search.changes[LEAST] * length(of, search.states[BEST]) / np.sqrt(of.inertia)
-    return least if AGES * drift < least < np.inf else 0.0
-
-
-@_inner
-def tell(of, search, trace):
-    """Leave COF and swing of a period."""
-    told = search.told
-    along, across, told[SWING] = mean_and_swing(trace, of.block)
-    told[COF], told[COF_Y], told[IS_FOUND] = along / of.mean_limit, across / of.mean_limit, 1.0
-
-
-@_inner
-def weighed(of, search, gain):
-    """Leave the COF of the best state, and how far it may be from that of the exact one."""
-    states, changes, told = search.states, search.changes, search.told
-    before, after, trace = states[START], states[BEST], search.traces[LAST_PERIOD]
-    if not is_last(search.counts):
-        before, after, trace = states[BEST].copy(), states[IMAGE], search.traces[OTHER]
-        marched(of, before, after, trace)
-        search.counts[MARCHED] += 1
-    tell(of, search, trace)
-    # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
-    off = (changes[LEAST] + 1e-15) * gain  # 1e-15: rounding
-    spread = 2.0 * off * length(of, states[BEST]) / of.mean_limit
-    pull, late = 2.0 * np.pi * of.v, 0.0
-    if of.v > 0.0:
-        late = late_share(before, after, of.block, of.bears, pull) / of.mean_limit
-        late = UNKNOWN if pull <= of.hidden_pull else late
-    settled = spread <= min(of.tolerance, SOLVED_TOLERANCE) and late <= of.tolerance
-    nearly_full = FULL < 1.0 - told[COF] < SOLVED_TOLERANCE  # it has to be told from nothing
-    told[SLIP] = 0.0 if of.has_face else least_slip(trace, of.block, of.mean_limit)
-    told[GAINED], told[SPREAD], told[LATE] = gain, spread, 1.0 if late > of.tolerance else 0.0
-    told[IS_CLOSE] = 1.0 if settled and (told[ENDS] <= CLOSE or not nearly_full) else 0.0
-    copy(after, states[FOUND])
-
-
-@_inner
-def period(of, search, x, image):
-    """The image of a state, counted. Its trace does not matter."""
-    marched(of, x, image, search.traces[OTHER])
-    search.counts[MARCHED] += 1
-
-
-@_inner
-def pushed(of, search, push, pairs):
-    """Push the best state by a share of its size, in the directions of its signs. pairs (2, 1 + k, n_x): what it comes
-    to after some periods, and a period later, are filled in; after it, what its pushes have become then, as
-    displacements from there. Returns the length of the pushes.
-    """
-    best, k = search.states[BEST], len(of.pushes)
-    size = push * length(of, best)
-    if size == 0.0:
-        size = push  # of a state that is nothing, as in flight, the unit
-    for j in range(k + 1):
-        copy(best, pairs[0, j])
-        if j > 0:
-            for i in range(best.size):
-                pairs[0, j, i] += size * search.signs[j - 1] * of.pushes[j - 1, i]
-        for _ in range(BETWEEN):
-            period(of, search, pairs[0, j], pairs[1, j])
-            copy(pairs[1, j], pairs[0, j])
-        copy(pairs[0, j], search.states[IMAGE])
-        period(of, search, search.states[IMAGE], pairs[1, j])
-    for j in range(1, k + 1):
-        for part in range(2):
-            for i in range(best.size):
-                pairs[part, j, i] -= pairs[part, 0, i]
-    return size
-
-
-@_inner
-def measured(of, search):
-    """Bound on the distance to the fixed point over the change over a period, of a state that returns so closely that
-    its own change is small beside a push, and blurs what is seen of it; NaN for a map that expands.
-    """
-    k, n_x = of.pushes.shape
-    pairs, lasts = np.empty((2, 1 + k, n_x)), 0
-    search.signs[:] = 1.0
-    size = pushed(of, search, PUSH, pairs)
-    ways, images, known = np.empty((k, n_x)), np.empty((k, n_x)), True
-    for j in range(k):
-        for i in range(n_x):
-            ways[j, i] = pairs[0, 1 + j, i] * of.roots[i] / size
-            images[j, i] = pairs[1, 1 + j, i] * of.roots[i] / size
-            known = known and np.isfinite(ways[j, i]) and np.isfinite(images[j, i])
-    if not known:
-        return np.nan
-    lengths = made_orthogonal(ways, images)  # longest first
-    for j in range(k):
-        if lengths[j] > DIED_OUT:
-            lasts = j + 1
-            for i in range(n_x):
-                ways[j, i] /= lengths[j]
-                images[j, i] /= lengths[j]
-    onto, missed = np.zeros((lasts, lasts)), 0.0
-    for j in range(lasts):
-        left = images[j].copy()
-        for m in range(lasts):
-            for i in range(n_x):
-                onto[m, j] += ways[m, i] * images[j, i]
-            for i in range(n_x):
-                left[i] -= onto[m, j] * ways[m, i]
-        missed = max(missed, np.sqrt((left * left).sum()))
-    largest = spectral_radius(onto)
-    if largest > EXPANDS:
-        return np.nan
-    for j in range(k):
-        copy(pairs[0, 1 + j], search.slow[0, j])
-        copy(pairs[1, 1 + j], search.slow[1, j])
-    search.counts[KNOWN] = 1
-    if lasts == 0:
-        return 1.0 / (1.0 - lengths[0] ** (1.0 / BETWEEN))
-    if of.n_slow > 0 and largest < STABLE:
-        return 1.0 / (1.0 - largest)
-    short = -onto
-    for j in range(lasts):
-        short[j, j] += 1.0
-    least = made_orthogonal(short, short.copy())[lasts - 1]
-    along = 1.0 / max(least - missed - search.changes[LEAST] / PUSH, 1e-300)
-    if of.n_slow == 0:
-        return along
-    creep = -1.0 / np.expm1(-1.0 / (CREEP * of.slowest))  # few arms are told apart in so short a time
-    return creep if of.stable else max(along, creep)
-
-
-@_inner
-def correct(of, search):
-    """A Newton-Picard correction of the best state along the pushed motions, for one of less change over a period.
-
-    The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go the
-    same way and as far, to see the slope on both sides of it.
-    """
-    states, counts, changes, told = search.states, search.counts, search.changes, search.told
-    if not changes[LEAST] > changes[ENOUGH] or counts[MISSED] == LOST or counts[TURN] == TURNS:
-        counts[PHASE] = WEIGH
-        return
-    counts[TURN] += 1
-    k, n_x = of.pushes.shape
-    pairs, turns, move = np.empty((2, 1 + k, n_x)), np.empty((k, n_x)), np.empty(n_x)
-    pushed(of, search, told[NEXT_PUSH], pairs)
-    image, size, known = pairs[1, 0], length(of, pairs[1, 0]) + 1e-300, True
-    change = distance(of, image, pairs[0, 0]) / size
-    for i in range(n_x):
-        move[i] = of.roots[i] * (image[i] - pairs[0, 0, i])
-        for j in range(k):
-            turns[j, i] = of.roots[i] * (pairs[1, 1 + j, i] - pairs[0, 1 + j, i])
-            known = known and np.isfinite(turns[j, i])
-    copy(image, states[BEST])
-    changes[LEAST] = change
-    if not known:
-        counts[PHASE] = WEIGH
-        return
-    share, step = shares(turns, move, 1e-12), np.zeros(n_x)
-    for j in range(k):
-        if share[j] > 0.0:
-            search.signs[j] = -search.signs[j]
-        for i in range(n_x):
-            step[i] -= share[j] * pairs[1, 1 + j, i]
-    # if no part is a gain, what these pushes saw was not of here
-    part, counts[MISSED], told[NEXT_PUSH], tried, reached = (
-        1.0,
-        counts[MISSED] + 1,
-        0.1 * told[NEXT_PUSH],
-        np.empty(n_x),
-        states[IMAGE],
-    )
-    while part >= SHORTEST:
-        for i in range(n_x):
-            tried[i] = image[i] + part * step[i]
-        inside = tried.copy()
-        period(of, search, inside, reached)
-        less = distance(of, reached, tried) / size
-        if less < (1.0 - 0.1 * part) * change:
-            push = part * length(of, step) / size
-            told[NEXT_PUSH] = min(max(push, 1e-9), PUSH if part == 1.0 else FARTHEST)
-            copy(reached, states[BEST])
-            changes[LEAST], counts[MISSED] = less, 0
-            break
-        part *= 0.5
+        The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go
+        the same way and as far, to see the slope on both sides of it.
+        """
+        search, roots, push, lost = self.search, self.how.roots, PUSH, 0
+        ways = np.ones(len(self.how.pushes))
+        for _ in range(TURNS):
+            if not search.changes[LEAST] > search.changes[ENOUGH] or lost == LOST or time_is_over():
+                break
+            (begin, image), (before, after), _ = self._pushed(ways, push)
+            size, move = self._length(image) + 1e-300, roots * (image - begin)
+            change, turn = float(np.linalg.norm(move)) / size, (roots * (after - before)).T
+            search.states[BEST], search.changes[LEAST] = image, change
+            if not np.isfinite(turn).all():
+                break
+            share = -np.linalg.lstsq(turn, move, rcond=1e-12)[0]
+            step, ways = share @ after, ways * np.where(share < 0, -1, 1)
+            part, lost, push = 1.0, lost + 1, 0.1 * push  # if no part is a gain, what these pushes saw was not of here
+            while part >= SHORTEST:
+                tried = image + part * step
+                reached = self._period(tried)
+                less = self._length(reached - tried) / size
+                if less < (1 - 0.1 * part) * change:
+                    push = float(np.clip(part * self._length(step) / size, 1e-9, PUSH if part == 1 else FARTHEST))
+                    search.states[BEST], search.changes[LEAST], lost = reached, less, 0
+                    break
+                part *= 0.5

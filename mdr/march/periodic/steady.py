@@ -16,7 +16,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, Periods, Stepper
+from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, Stepper
 from mdr.march.periodic.each_alone import search_alone
 from mdr.march.periodic.search import (
     Orbit,
@@ -244,7 +244,7 @@ def steady(
             orbit = waiting.wait(most or MAX_PERIODS["rigid" if scaled.body.rigid else "spring"])
         else:
             orbit = waiting.after(n_periods)
-    if not np.isfinite(orbit.period.cof).all():
+    if not np.isfinite(orbit.settling.mean):
         raise out_of_range(v_0)
     n_marched, awaits = stepper.n_periods, n_periods is not None
     return Converged(case, v_0, resolution, springs, stepper, orbit, n_marched, waiting, awaits)
@@ -345,10 +345,9 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     From full slip on the extension of a spring is never less than in its periodic state. Where that slips, as it does
     in every period, it is at the limit of friction; so is the spring, and from then on both are one.
     """
-    state, periods = stepper.advance(stepper.full_slip(), 2)
-    last = Periods(*(column[-1:] for column in periods))
-    least = stepper.least_slip()
-    return Orbit(state, last, Settling(float(last.cof[0]), 0.0, True, "periodic", gain=1.0), least)
+    state = stepper.period(stepper.period(stepper.full_slip()))
+    cof, _ = stepper.cof_of(stepper.last)
+    return Orbit(state, Settling(cof, 0.0, True, "periodic", gain=1.0), stepper.least_slip(stepper.last))
 
 
 def _contradiction(march: Observed) -> str:

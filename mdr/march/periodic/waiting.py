@@ -55,7 +55,7 @@ class Waiting:
             self.state, periods = self.stepper.advance(before, part)
             self.append(periods)
         self.late = self.stepper.late(before, self.state, periods.cof.size)
-        self.least_slip = self.stepper.least_slip()
+        self.least_slip = self.stepper.least_slip(self.stepper.last)
 
     def append(self, periods: Periods) -> None:
         """Add further periods to those that the judgement rests on."""
@@ -90,7 +90,7 @@ class Waiting:
         return self._ended(settling)
 
     def _ended(self, settling: Settling) -> Orbit:
-        return Orbit(self.state, self.periods, settling, self.least_slip)
+        return Orbit(self.state, settling, self.least_slip)
 
     def assess(self) -> Settling:
         """Whether the COF has settled, and the body too."""
