@@ -190,7 +190,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
     state or with what comes out.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
-    tools, unit = new_tools(h, modes, arms, 0j), (contact.length_x, contact.length_x, contact.length_z)
+    tools, unit = new_tools(h, modes, arms, 0j, n), (contact.length_x, contact.length_x, contact.length_z)
     force = contact.force_x, contact.force_x, contact.force_z
     parts = parts_of(states.shape[1], n)
     room, alone, K, way = room_for(parts, n), room_for(parts, 1), np.empty((3, 3)), np.empty(3)
@@ -296,7 +296,7 @@ def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
     given depth stands the mean of both sides.
     """
     T, modes, arms = contact.law
-    tools, viscous = new_tools(1.0, modes, arms, 0.0 * x[0]), modes is not None
+    tools, viscous = new_tools(1.0, modes, arms, 0.0 * x[0], contact.gap.size), modes is not None
     trial, s_near, e_near = np.empty_like(s), np.empty_like(s), np.empty_like(e)
     scale, rate, z = load.max() if load.size > 0 else 1.0, 0.0, depth[start]
     for k in range(start + 1, stop + 1):

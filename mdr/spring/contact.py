@@ -190,12 +190,12 @@ def limit_of(face, springs, i, R, h):
 
 
 @_inline
-def one_row(rub, indices, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     """Springs over a step; s and e are updated, an Answer comes out.
 
     rub: function of the friction over a stretch of contact, rub_line or rub_disc; or None, as e, for the normal part
-    alone. indices: numbers of the springs, or None for all. T, modes, arms: of the law (law.py). The others as of
-    row.py. What is None is compiled away.
+    alone. made (n,): not zero for springs that were stepped already; or None. T, modes, arms: of the law (law.py). The
+    others as of row.py. What is None is compiled away.
     """
     gap, w, h, G = springs.gap, springs.w, tools.times.h, glassy(arms)
     area = moment = end = nothing = 0.0 * path.x_1  # a number or a vector
@@ -205,13 +205,9 @@ def one_row(rub, indices, s, e, springs, path, zd, xd, T, modes, arms, tools, ex
         look.F[2] = np.inf
     # true rates of the top at the end of the step, less those of the parabolas
     rate_miss = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
-    n_indices = gap.size
-    if indices is not None:
-        n_indices = indices.size
-    for m in range(n_indices):
-        i = m
-        if indices is not None:
-            i = indices[m]
+    for i in range(gap.size):
+        if made is not None and made[i] != 0.0:
+            continue
         tol = ROUNDING * (1.0 + abs(gap[i]))
         z_0, z_1, t, done, k, pressed_for, mode = path.z_0 - gap[i], path.z_1, h, 0.0, STEP, 0.0, FREE
         n, vel = nothing, 0.0

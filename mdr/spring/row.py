@@ -19,7 +19,7 @@ from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
 from mdr.spring.line import rub_line
 from mdr.spring.motion import hold
-from mdr.spring.path import FAST, LENT, OWN, Path
+from mdr.spring.path import FAST, LENT, Path
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.compiler import Complex, NoneType, overload
@@ -27,7 +27,7 @@ from mdr.tools.jit import compiled, inner
 from mdr.tools.linked import LINKED
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
-_OWN: Any = {"error_model": "numpy", "fastmath": FAST, **OWN, **LINKED}
+_LENT: Any = {"forceinline": True, "error_model": "numpy", "fastmath": FAST, **LENT, **LINKED}
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
 
@@ -38,7 +38,7 @@ def row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     return of(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
 
 
-@overload(row, inline="never", jit_options=_OWN)
+@overload(row, inline="never", jit_options=_LENT)
 def _(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     lean = all(isinstance(one, NoneType) for one in (arms, look, path.types[Path._fields.index("face")]))
     return _row(isinstance(e.dtype, Complex), lean, lean and isinstance(each, NoneType))
@@ -60,14 +60,10 @@ def _on_line(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, l
 def _on_line_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
     if excess is not None:
         excess[:] = 0.0
-    gap, w = springs.gap, springs.w
-    made, others, n = np.empty(gap.size), np.empty(gap.size, np.int64), 0
+    gap, w, made = springs.gap, springs.w, tools.room.whole
+    require_room(made, gap)
     of = whole_on_line(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, excess, made)
-    for i in range(gap.size):
-        if made[i] == 0.0:
-            others[n] = i
-            n += 1
-    rest = one_row(rub_line, others[:n], s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    rest = one_row(rub_line, made, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
     return both(of, rest)
 
 
@@ -76,17 +72,23 @@ def _in_plane(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, 
 
 
 def _in_plane_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    gap, w = springs.gap, springs.w
-    made, others, n = np.empty(4 * gap.size), np.empty(gap.size, np.int64), 0
+    gap, w, made = springs.gap, springs.w, tools.room.whole
+    require_room(made, gap)
     of = whole_in_plane(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, each, made)
     for i in range(gap.size):
-        if made[4 * i + 3] != 0.0:
+        whole = made[4 * i + 3]
+        if whole != 0.0:
             s[0, i], e[0, i] = made[4 * i], complex(made[4 * i + 1], made[4 * i + 2])
-        else:
-            others[n] = i
-            n += 1
-    rest = one_row(rub_disc, others[:n], s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
+        made[i] = whole
+    rest = one_row(rub_disc, made, s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
     return both(of, rest)
+
+
+@_inline
+def require_room(made, gap):
+    """Refuse tools of a row of fewer springs."""
+    if made.size < 4 * gap.size:
+        raise ValueError("the tools are of a row of fewer springs")
 
 
 @_inline

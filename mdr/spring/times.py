@@ -30,6 +30,7 @@ class Room(NamedTuple):
     vectors: Array  #: (K,) of an extension, of its type
     work: Array  #: (J + K,) of a function whose zero is sought, or of the account of energies
     kept: Array  #: (1 + J, 1) of a compression
+    whole: Array  #: (4 n,) of n springs in a row with friction: what becomes of those that do one thing (whole.py)
 
 
 class Tools(NamedTuple):
@@ -71,13 +72,13 @@ def times_of(h, modes, arms):
 
 
 @compiled(error_model="numpy", nogil=True, fastmath=FAST)
-def new_tools(h, modes, arms, zero):
-    """Tools of a step of length h, for extensions of the type of `zero`."""
+def new_tools(h, modes, arms, zero, n):
+    """Tools of a step of length h, for extensions of the type of `zero`, and rows of n springs with friction."""
     times = times_of(h, modes, arms)
     J, K = times.arms.shape[2], times.decay.shape[1]
     of_modes = np.zeros(K)
     vectors = of_modes * zero
-    return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty((1 + J, 1))))
+    return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty((1 + J, 1)), np.empty(4 * n)))
 
 
 @inner(error_model="numpy", fastmath=FAST)
@@ -86,7 +87,7 @@ def tools_of(h, modes, arms, tools):
     return Tools(times_of(h, modes, arms), tools.room)
 
 
-def tools_for(law: Law, h: float, in_plane: bool = False) -> Tools:
-    """Tools of a law, for steps of length h, of springs that move along a line or in the plane."""
-    (*times,), (*room,) = new_tools(float(h), law.modes, law.arms, 0j if in_plane else 0.0)
+def tools_for(law: Law, h: float, n: int = 0, in_plane: bool = False) -> Tools:
+    """Tools of a law, for steps of length h, and rows of n springs with friction along a line or in the plane."""
+    (*times,), (*room,) = new_tools(float(h), law.modes, law.arms, 0j if in_plane else 0.0, n)
     return Tools(Times(*times), Room(*room))

@@ -30,7 +30,7 @@ from mdr.tools.jit import inner
 TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
 
 
-@inner(error_model="numpy", fastmath=FAST, **LENT)
+@inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
     """The springs that do one thing for all of a step h along a line: their Answer.
 
@@ -94,7 +94,7 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
     )
 
 
-@inner(error_model="numpy", fastmath=FAST, **LENT)
+@inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
     """The springs that do one thing for all of a step h in the plane: their Answer.
 

@@ -103,7 +103,7 @@ class Row:
     def stepped(self, parts=1, look=None):
         """e, s, and of each spring area and moment of the tangential force, and how long it stuck, all at the end."""
         e, s, sums, h = self.e.copy(), self.s.copy(), np.zeros((3, self.gap.size)), self.h / parts
-        tools = tools_for(self.law, h)
+        tools = tools_for(self.law, h, 1)
         for part in range(parts):
             path, last = self.from_then(part * h), self.from_then((part + 1) * h)
             for i in range(self.gap.size):
@@ -128,7 +128,7 @@ class Row:
         which all are followed from event to event. rates: other ones at the end than those of the parabolas.
         """
         e, s, end, n = self.e.copy(), self.s.copy(), self.from_then(self.h), self.gap.size
-        tools, excess = tools_for(self.law, self.h), np.full((s.shape[0], 1), np.nan)
+        tools, excess = tools_for(self.law, self.h, n), np.full((s.shape[0], 1), np.nan)
         seen, rates = Each(*np.empty((3, n))) if each else None, rates or (end.z_1, end.x_1)
         of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, excess, seen, None)
         return e, s, of, excess, seen

@@ -29,7 +29,7 @@ def some_springs(law, rng, n=40):
 def answer(law, s, e, gap, w, path, h, rates=None):
     """That of the row in the plane; s and e are updated. rates: other ones at the end than those of the parabolas."""
     rates = rates or (path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2)
-    return row(s, e, Springs(gap, w), path, *rates, *law, tools_for(law, h, in_plane=True), None, None, None)
+    return row(s, e, Springs(gap, w), path, *rates, *law, tools_for(law, h, gap.size, in_plane=True), None, None, None)
 
 
 def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
@@ -129,7 +129,7 @@ def test_along_one_line_it_is_the_row_along_a_line(law, tolerance, sign):
     of, _, after = stepped(law, (gap, w, s, e), sign * 20.0, 10.0)
     s_1, e_1, path = s.copy(), e.real.copy(), Path(0.0, 0.05, 0.0, sign * 20.0, 10.0)
     rates = 0.05, sign * 20.0 + 20.0 * H
-    known = row(s_1, e_1, Springs(gap, w), path, *rates, *law, tools_for(law, H), None, None, None)
+    known = row(s_1, e_1, Springs(gap, w), path, *rates, *law, tools_for(law, H, gap.size), None, None, None)
     assert_allclose(after.imag, 0.0, atol=1e-15)
     assert_allclose(after.real, e_1, atol=tolerance)
     assert_allclose(np.real(of._replace(back=0.0)), known._replace(back=0.0), atol=tolerance)
@@ -195,7 +195,7 @@ def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(law):
         path, n = Path(0.0, rng.uniform(-2, 1), rng.uniform(-5, 5), x_1, x_2), gap.size
         s_1, e_1, s_2, e_2 = s.copy(), e.copy(), s.copy(), e.copy()
         rates = rng.uniform(-2, 1), complex(*rng.normal(0, 3, 2))  # at the end, not those of the parabolas
-        nodes, tools = nodes_of(H, law.modes, law.arms), tools_for(law, H, in_plane=True)
+        nodes, tools = nodes_of(H, law.modes, law.arms), tools_for(law, H, gap.size, in_plane=True)
         look = Look(nodes, np.zeros(N_SUMS), np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
         of, each = answer(law, s_1, e_1, gap, w, path, H, rates), Each(np.empty(n), np.empty(n, complex), np.empty(n))
         known = row(s_2, e_2, Springs(gap, w), path, *rates, *law, tools, None, each, look)

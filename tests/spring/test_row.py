@@ -156,7 +156,7 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
             replace(which, gap=one.gap[keeps], s=which.s[:, keeps], e=which.e[:, keeps], w=one.w[keeps])
             for which in (replace(one, h=half), then)
         )
-        tools, end = tools_for(one.law, half), then.from_then(half)
+        tools, end = tools_for(one.law, half, one.gap.size), then.from_then(half)
         T, _, arms = one.law
         excess = np.zeros((one.s.shape[0], 1))
         row_of = Springs(first.gap, first.w)

@@ -79,7 +79,7 @@ def note(trace, j, part, t, path):
     trace.parts[j, part, 0], trace.parts[j, part, 1], trace.parts[j, part, 2] = t, path.x_1, path.x_2
 
 
-@_lent
+@_inline
 def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools):
     """A step of springs and body: it moves as their force makes it, and they move with it.
 

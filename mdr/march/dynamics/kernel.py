@@ -218,7 +218,7 @@ def kernel_of(kind: Kind) -> Kernel:
         state = as_numbers(x, in_plane)
         e = state[: s.size].reshape(s.shape)
         body = body_at(block, ALONG)
-        tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0])
+        tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0], gap.size)
         return march(
             e,
             s,

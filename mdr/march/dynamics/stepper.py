@@ -185,7 +185,7 @@ class Stepper:
         seen = loop.Seen(nodes, sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
-        tools = tools_for(scaled.law, scaled.drive.h, scaled.ways == 2)
+        tools = tools_for(scaled.law, scaled.drive.h, in_plane=scaled.ways == 2)
         sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
         loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, tools, trace, seen)
         if scaled.drive.across is None:
