@@ -55,5 +55,5 @@ def fixed_point(A, b, x, edge=np.inf, close=1e-10):
     """What the search of the march makes of such a map, which it knows to move slowly in the first two parts of x."""
     n_x = x.size
     start = MarchState(x.copy(), np.zeros((1, n_x - 2)))
-    how = Options(np.ones(n_x), np.eye(n_x)[:2], (), stable=False, memory=8, most=80, at_once=100)
+    how = Options(np.ones(n_x), (0, 1), (), stable=False, memory=8, most=80, at_once=100)
     return Shooting(OnAMap(A, b, edge, 20 * close), start, how, 3).shoot()

@@ -159,11 +159,11 @@ class Stepper:
         cof = complex(trace.area.sum()) / (2 * np.pi * self.mean_limit)
         return cof.real, cof.imag
 
-    def least_slip(self, trace: loop.Trace) -> float:
-        """Least velocity, the way of the pull, of springs that slip all the time, in a period; zero if some do not. A
-        step in which contact begins counts as a whole, if it is not cut there.
+    def least_slip(self, trace: loop.Trace, cof: float) -> float:
+        """Least velocity, the way of the pull, of springs that slip all the time, in a period of this COF over mu_0;
+        zero if some do not. A step in which contact begins counts as a whole, if it is not cut there.
         """
-        if self.scaled.faces or not abs(1 - self.cof_of(trace)[0]) <= EXACT:
+        if self.scaled.faces or not abs(1 - cof) <= EXACT:
             return 0.0
         (z, z_dot, *_), h = self.motion, self.scaled.drive.h
         z_2 = np.diff(z_dot) / (2 * h)
@@ -186,14 +186,15 @@ class Stepper:
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
         tools = tools_for(scaled.law, scaled.drive.h, in_plane=scaled.ways == 2)
-        sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
+        if scaled.drive.is_shaken:
+            sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
         loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, tools, trace, seen)
         if scaled.drive.across is None:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:
             sums[SHAKE_WORK] += self._work_of(scaled.drive.across, trace.area.imag, trace.moment.imag)
         stored = self.stored_energy(before), self.stored_energy(state)
-        y, rate = np.r_[start[Y], trace.y], np.r_[start[RATE], trace.rate]
+        y, rate = (np.append(start[at], one) for at, one in ((Y, trace.y), (RATE, trace.rate)))
         return state, PeriodRecord(seen, y, rate, stored, self.periods_of(trace), self.solved)
 
     def forces_of(self, state: MarchState, i: int) -> tuple[Array, Array]:

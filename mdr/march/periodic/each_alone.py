@@ -101,7 +101,7 @@ class _Springs:
         cof, cof_y = stepper.cof_of(stepper.last)
         spread = 2 * off / stepper.mean_limit
         settling = Settling(cof, spread, True, "periodic", gain=1.0, across=cof_y)
-        return Orbit(end, settling, stepper.least_slip(stepper.last))
+        return Orbit(end, settling, stepper.least_slip(stepper.last, cof))
 
     def _state(self, x: Array) -> MarchState:
         parts = self.like.e.shape[0]

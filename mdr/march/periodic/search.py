@@ -66,11 +66,11 @@ def search(
 @lru_cache(maxsize=32)
 def _how(scaled: ScaledContact) -> Options:
     """How to look for the periodic state of a contact, at any velocity."""
-    slow, (roots, pushes) = _slow_times(scaled), _energy_of(scaled)
+    slow, (roots, moved) = _slow_times(scaled), _energy_of(scaled)
     stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
     memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
     at_once = max(1, AT_ONCE // scaled.drive.steps)
-    return Options(roots, pushes, slow, stable, memory, most, at_once)
+    return Options(roots, moved, slow, stable, memory, most, at_once)
 
 
 def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
@@ -123,12 +123,12 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
     return gain / (1 - gain * h**2) if gain is not None and gain * h**2 < SAME_GAIN else None
 
 
-def _energy_of(scaled: ScaledContact) -> tuple[Array, Array]:
+def _energy_of(scaled: ScaledContact) -> tuple[Array, tuple[Any, ...]]:
     """Roots (n_x,) of the stiffness of every spring, of every arm of it and of the pull, and of the mass, in each
     direction: a state vector times them is as long as the root of its energy.
 
-    And displacements (k, n_x) of unit length: of the position and velocity of the body, and of each arm of all springs
-    that outlasts a period; of the springs themselves where there is neither.
+    And the places of slow motions: of the position and velocity of the body, and of each arm of all springs that
+    outlasts a period; of the springs themselves where there is neither.
     """
     ways, rheology, bodies = scaled.ways, scaled.rheology, (scaled.body, scaled.body_across)[: scaled.ways]
     of_springs = np.multiply.outer(np.sqrt((1.0, *rheology.rho)), np.sqrt(scaled.springs.w))
@@ -141,7 +141,4 @@ def _energy_of(scaled: ScaledContact) -> tuple[Array, Array]:
     parts = [1 + j for j, theta in enumerate(rheology.theta) if theta > FORGOTTEN]
     parts = parts if parts or moved else [0]
     moved += [slice(ways * j * n + way, ways * (j + 1) * n, ways) for way in range(ways) for j in parts]
-    pushes = np.zeros((len(moved), roots.size))
-    for push, at in zip(pushes, moved, strict=True):
-        push[at] = 1 / np.sqrt(np.sum(roots[at] ** 2))
-    return roots, pushes
+    return roots, tuple(moved)

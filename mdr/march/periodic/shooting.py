@@ -24,7 +24,8 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -80,12 +81,20 @@ class Options:
     """How to look for a periodic state, of n_x numbers."""
 
     roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
-    pushes: Array  #: (k, n_x) displacements of unit length along slow motions
+    moved: tuple[Any, ...]  #: k places of slow motions among the n_x numbers
     slow: tuple[float, ...]  #: relaxation times of material and pull, in periods, that a period does not relax
     stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
     memory: int  #: periods that Anderson's method combines
     most: int  #: periods after which it gives up
     at_once: int  #: periods between two looks at the clock
+
+    @cached_property
+    def pushes(self) -> Array:
+        """Displacements (k, n_x) of unit length along the slow motions."""
+        pushes = np.zeros((len(self.moved), self.roots.size))
+        for push, at in zip(pushes, self.moved, strict=True):
+            push[at] = 1 / np.sqrt(np.sum(self.roots[at] ** 2))
+        return pushes
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,8 +143,8 @@ class Shooting:
                 return
             best = search.states[BEST].copy()
             last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
-            if last and (slip := self._slip_for_good()):
-                cofs = stepper.cof_of(self.trace)
+            cofs = stepper.cof_of(self.trace)
+            if last and (slip := self._slip_for_good(cofs[0])):
                 self.found = Found(best, *cofs, slip, np.inf, 0.0, late=False, is_close=True)
                 return
             if search.changes[LEAST] > search.changes[ENOUGH]:
@@ -150,7 +159,7 @@ class Shooting:
                     return
                 x, close = best, CLOSE
                 continue
-            self.found = found = self._told(last, close, gain)
+            self.found = found = self._told(cofs if last else None, close, gain)
             if found.is_close or close <= CLOSEST or time_is_over():
                 return
             x, close = search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
@@ -188,30 +197,30 @@ class Shooting:
         """Root of the energy of a state."""
         return float(np.linalg.norm(self.how.roots * x))
 
-    def _slip_for_good(self) -> float:
+    def _slip_for_good(self, cof: float) -> float:
         """The least slip velocity of the best state if it is one of full slip that is more than AGES times what changes
         over a period; else zero. It need not be close to the exact periodic state: the COF is the same.
 
         Where a free oscillation is a whole multiple of the drive, full slip has not one periodic motion but many.
         """
         search, stepper, body = self.search, self.stepper, self.stepper.scaled.body
-        if not (least := stepper.least_slip(self.trace)):
+        if not (least := stepper.least_slip(self.trace, cof)):
             return 0.0
         drift = float(search.changes[LEAST]) * self._length(search.states[BEST])
         drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
         return least if AGES * drift < least < np.inf else 0.0
 
-    def _told(self, last: bool, close: float, gain: float) -> Found:
+    def _told(self, cofs: tuple[float, float] | None, close: float, gain: float) -> Found:
         """The COF of the periodic state, and how far it may be from that of the exact one.
 
-        last: whether the last period that was marched is its own.
+        cofs: of the last period that was marched, if that is its own.
         """
         stepper, search = self.stepper, self.search
         begin, state, trace = search.states[START].copy(), search.states[BEST].copy(), self.trace
-        if not last:
+        if cofs is None:
             begin = stepper.within_friction(MarchState(state, self.s)).x
             state, trace = self._period(begin), stepper.last
-        cofs = stepper.cof_of(trace)
+            cofs = stepper.cof_of(trace)
         # all springs together have the stiffness one: the mean force is off by at most twice the distance (SHARE)
         distance = (float(search.changes[LEAST]) + 1e-15) * gain  # 1e-15: rounding
         spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_limit
@@ -220,7 +229,7 @@ class Shooting:
         settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
         nearly_full = FULL < 1 - cofs[0] < SOLVED_TOLERANCE  # it has to be told from nothing
         is_close = settled and (close <= CLOSE or not nearly_full)
-        return Found(state, *cofs, stepper.least_slip(trace), gain, spread, late, bool(is_close))
+        return Found(state, *cofs, stepper.least_slip(trace, cofs[0]), gain, spread, late, bool(is_close))
 
     def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
         """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
@@ -243,7 +252,7 @@ class Shooting:
         that its own change is small beside a push, and blurs what is seen of it; None for a map that expands.
         """
         roots, slow = self.how.roots, max(self.how.slow, default=0.0)
-        _, moved, size = self._pushed(np.ones(len(self.how.pushes)), PUSH)
+        _, moved, size = self._pushed(np.ones(len(self.how.moved)), PUSH)
         before, after = moved * roots / size
         if not np.isfinite(moved).all():
             return None
@@ -275,7 +284,7 @@ class Shooting:
         the same way and as far, to see the slope on both sides of it.
         """
         search, roots, push, lost = self.search, self.how.roots, PUSH, 0
-        ways = np.ones(len(self.how.pushes))
+        ways = np.ones(len(self.how.moved))
         for _ in range(TURNS):
             if not search.changes[LEAST] > search.changes[ENOUGH] or lost == LOST or time_is_over():
                 break

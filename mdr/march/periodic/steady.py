@@ -347,7 +347,7 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     """
     state = stepper.period(stepper.period(stepper.full_slip()))
     cof, _ = stepper.cof_of(stepper.last)
-    return Orbit(state, Settling(cof, 0.0, True, "periodic", gain=1.0), stepper.least_slip(stepper.last))
+    return Orbit(state, Settling(cof, 0.0, True, "periodic", gain=1.0), stepper.least_slip(stepper.last, cof))
 
 
 def _contradiction(march: Observed) -> str:
