@@ -76,7 +76,7 @@ def on_other_springs(xs, gap, order, on, ways):
                 last = middle
         a, b = order[first], order[last]
         apart = gap[b] - gap[a]
-        share = min(max((on[i] - gap[a]) / apart, 0.0), 1.0) if apart > 0.0 else 0.0
+        share = min(max((on[i] - gap[a]) / apart, 0.0), 1.0) if apart > 0.0 else 1.0
         for j in range(k):
             for part in range(parts):
                 for way in range(ways):
