@@ -6,7 +6,7 @@ The point v_0 = 0 is the static limit.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -44,38 +44,32 @@ LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CofPoints(ArrayRecord):
-    """Coefficient of friction at some pulling velocities, arrays of shape (n_v,)."""
+class CofCurve(Summarised, Tabled, ArrayRecord):
+    """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
+
+    The point v_0 = 0 is the static limit, of a pull ever slower forward.
+    """
 
     v_0: Array  #: pulling velocities [m/s]
     cof: Array  #: average coefficient of friction [-]
     cof_error: Array  #: bound on its error, and on that of cof_y, estimated of runs; 2 full_cof of one not settled [-]
     settled: NDArray[np.bool_]  #: whether the run settled
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
-    why: tuple[str, ...]  #: what the runs had to say, "" where nothing
-    cof_y: Array | None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
+    v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
+    mu_0: float  #: local coefficient of friction [-]
     full_cof: float  #: COF of full slip [-]: mu_0, or what a shear strength of the face makes of it
+    static_cof: float  #: limit v_0 -> +0 [-]
+    why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
+    v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
+    static_cof_back: float | None = (
+        None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
+    )
+    cof_y: Array | None = None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
 
     @property
     def share(self) -> Array:
         """`cof` over that of full slip [-], (n_v,): cof/mu_0 where the face has no shear strength."""
         return self.cof / self.full_cof
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class CofCurve(Summarised, Tabled, CofPoints):
-    """Coefficient of friction over the pulling velocity, arrays of shape (n_v,).
-
-    The point v_0 = 0 is the static limit, of a pull ever slower forward.
-    """
-
-    v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
-    mu_0: float  #: local coefficient of friction [-]
-    static_cof: float  #: limit v_0 -> +0 [-]
-    v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
-    static_cof_back: float | None = (
-        None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
-    )
 
     def _summary(self) -> Summary:
         n, settled = self.v_0.size, int(self.settled.sum())
@@ -181,31 +175,34 @@ def cof_curve(
     >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
     array([0.319, 0.364, 0.398, 0.4  ])
     """
-    known = _Curve(resolved(case), v_0, method, n_springs, steps_per_period, accuracy)
-    case, asked = known.case, known.asked
-    points = known.points(asked if np.any(asked == 0) else np.append(asked, 0.0))
-    static, back = float(points.cof[np.argmax(points.v_0 == 0)]), None
-    if np.any(asked < 0) and case.is_alike_both_ways:
+    asked = _Asked(resolved(case), v_0, method, n_springs, steps_per_period, accuracy)
+    case, v_0 = asked.case, asked.v_0
+    columns, back = asked.columns(asked.and_rest), None
+    static = float(columns.cof[np.argmax(asked.and_rest == 0)])
+    if np.any(v_0 < 0) and case.is_alike_both_ways:
         back = -static
-    elif np.any(asked < 0) and (known.is_closed or np.any(asked == 0)):  # slow runs take long
-        back = -float(_at_rest(case.mirrored, known.friction)[0])
+    elif np.any(v_0 < 0) and (asked.is_closed or np.any(v_0 == 0)):  # slow runs take long
+        back = -float(_at_rest(case.mirrored, asked.friction)[0])
+    known = columns.first(v_0.size)
     return CofCurve(
-        **_first(points, known.velocities),
+        v_0=v_0,
+        **known._asdict() | {"why": tuple(known.why.tolist()), "cof_y": known.cof_y if case.moves_across else None},
         v_c=critical_velocity(case),
         mu_0=case.mu_0,
+        full_cof=full_cof(case),
         static_cof=static,
         v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
         static_cof_back=back,
     )
 
 
-def cof_at(case: SlidingContact, v_0: ArrayLike, **knobs: Any) -> CofPoints:
+def cof_at(case: SlidingContact, v_0: ArrayLike, **knobs: Any) -> Columns:
     """Friction at velocities as a curve has it, without its limit at rest and its scale; knobs: of `cof_curve`."""
-    known = _Curve(resolved(case), v_0, **knobs)
-    return CofPoints(**_first(known.points(known.asked), known.velocities))
+    asked = _Asked(resolved(case), v_0, **knobs)
+    return asked.columns(asked.and_rest if asked.rest_judges else asked.counted).first(asked.v_0.size)
 
 
-class _Curve:
+class _Asked:
     """What is asked of a curve, checked."""
 
     def __init__(
@@ -221,37 +218,40 @@ class _Curve:
         require_knobs(n_springs=n_springs, steps_per_period=steps_per_period)
         if method not in (None, "march"):
             raise ValueError(f'method must be None or "march", got {method!r}')
-        self.velocities = row("v_0", v_0, "m/s", "velocities")
-        if self.case.shake is None and np.any(self.velocities < 0):
+        self.v_0 = row("v_0", v_0, "m/s", "velocities")
+        if case.shake is None and np.any(self.v_0 < 0):
             raise ValueError(
-                f"v_0 must not be negative, got {float(self.velocities.min())!r} m/s: friction is the same both ways "
-                "where nothing shakes in the plane"
+                f"v_0 must not be negative, got {float(self.v_0.min())!r} m/s: friction is the same both ways where "
+                "nothing shakes in the plane"
             )
-        at_rest = (np.abs(self.velocities) < SLOWEST * self.case.unit_velocity) & (not self.case.is_shaken)
-        self.asked = np.where(at_rest, 0.0, self.velocities)
-        self.is_closed = method is None and has_closed_form(self.case)
+        at_rest = (np.abs(self.v_0) < SLOWEST * case.unit_velocity) & (not case.is_shaken)
+        self.counted = np.where(at_rest, 0.0, self.v_0)  #: zero stands for the limit at rest
+        self.is_closed = method is None and has_closed_form(case)
         by_runs = _by_runs(accuracy, n_springs, steps_per_period)
         self.friction: Friction = _closed_form if self.is_closed else by_runs
 
-    def points(self, v_0: Array) -> CofPoints:
+    @property
+    def and_rest(self) -> Array:
+        """The same with zero, after them unless it is among them."""
+        return self.counted if np.any(self.counted == 0) else np.append(self.counted, 0.0)
+
+    @property
+    def rest_judges(self) -> bool:
+        """Whether the limit at rest judges the runs; one in closed form judges none."""
+        return not self.is_closed and self.case.is_shaken
+
+    def columns(self, v_0: Array) -> Columns:
         """Friction at velocities of which zero stands for its limit."""
-        case, full = self.case, full_cof(self.case)
-        cof, error, settled, sticks, why, cof_y = _both_ways(case, v_0, self.friction)
-        if not self.is_closed:  # a static limit in closed form judges no run
-            wrong = disordered(v_0, cof, error, settled & ((v_0 != 0) | case.is_shaken))
-            why[wrong] = (
+        known = _both_ways(self.case, v_0, self.friction)
+        if not self.is_closed:
+            judged = known.settled & ((v_0 != 0) | self.rest_judges)
+            wrong = disordered(v_0, known.cof, known.cof_error, judged)
+            known.why[wrong] = (
                 "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
             )
-            settled = settled & ~wrong
-        error = np.where(settled, np.minimum(error, 2 * full), 2 * full)
-        across = cof_y if case.moves_across else None
-        return CofPoints(v_0, cof, error, settled, sticks, tuple(why.tolist()), across, full)
-
-
-def _first(points: CofPoints, v_0: Array) -> dict[str, Any]:
-    """The fields of the points at these velocities, which come first."""
-    given = {one.name: getattr(points, one.name) for one in fields(points)}
-    return {name: one[: v_0.size] if hasattr(one, "__len__") else one for name, one in given.items()} | {"v_0": v_0}
+            known = known._replace(settled=known.settled & ~wrong)
+        most = 2 * full_cof(self.case)
+        return known._replace(cof_error=np.where(known.settled, np.minimum(known.cof_error, most), most))
 
 
 def require_knobs(**knobs: int | None) -> None:
@@ -273,12 +273,12 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
 
 
 class Columns(NamedTuple):
-    """What a curve knows at each of its velocities, arrays (n_v,)."""
+    """What a curve knows at each of its velocities, arrays (n_v,), by the names of `CofCurve`."""
 
     cof: Array
-    error: Array
+    cof_error: Array
     settled: NDArray[np.bool_]
-    sticks: Array
+    stick_share: Array
     why: NDArray[np.object_]
     cof_y: Array
 
@@ -287,6 +287,10 @@ class Columns(NamedTuple):
         """Of what did not have to settle, and moves along the pull alone."""
         why = np.full(cof.shape, "", dtype=object)
         return cls(cof, error, np.ones(cof.shape, dtype=bool), sticks, why, np.zeros(cof.shape))
+
+    def first(self, n: int) -> Columns:
+        """Those of the first n velocities."""
+        return Columns._make(column[:n] for column in self)
 
 
 Point = tuple[float, float, bool, float, str, float]  #: a row of the columns
@@ -356,9 +360,9 @@ def _slow_limit(runs: Columns) -> Point:
     """The limit of two slow runs, velocities ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
     (slower, faster), (slow_y, fast_y) = runs.cof, runs.cof_y
     apart, aside = faster - slower, fast_y - slow_y
-    bound = runs.error[0] + (runs.error[0] + runs.error[1]) / 6 + 0.15 * max(abs(apart), abs(aside))
+    bound = runs.cof_error[0] + (runs.cof_error[0] + runs.cof_error[1]) / 6 + 0.15 * max(abs(apart), abs(aside))
     settled, why = bool(runs.settled.all()), runs.why[0] or runs.why[1]
-    return slower - apart / 6, bound, settled, runs.sticks[0], why, slow_y - aside / 6
+    return slower - apart / 6, bound, settled, runs.stick_share[0], why, slow_y - aside / 6
 
 
 def _by_runs(accuracy: float, n_springs: int | None = None, steps_per_period: int | None = None) -> Friction:

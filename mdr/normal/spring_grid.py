@@ -63,7 +63,10 @@ def nodes(shape: Indenter, depths: Depths, n_springs: int) -> tuple[Array, Array
     missing = of.area / span - u_z0 - np.bincount(which, part * gap, span.size)
     noise = 64 * EPS * of.x_hi * np.abs(u_z0 + of.gap_hi) / span
     gap += np.where(np.abs(missing) > noise, missing, 0.0)[which]
-    return x, gap, 2 * span[which] * part, int(np.sum(counts, where=of.permanent))
+    width = 2 * span[which] * part
+    for one in (x, gap, width):  # which are kept
+        one.setflags(write=False)
+    return x, gap, width, int(np.sum(counts, where=of.permanent))
 
 
 def _complete(shape: Indenter, u_z0: float, n: int) -> tuple[Array, Array, Array, int]:

@@ -2,10 +2,10 @@
 scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py). Without arms, a look
 and a face, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
 
-springs: Springs. s, e (1 + J, n), updated: row 0 is compression and extension,
-row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: of the step (times.py). excess,
-along a line: None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the end, and of -2 w s of
-those that slip back, for `as_they_are`. each: None or Each. look: None or Look. Out comes an Answer.
+springs: Springs. s, e (1 + J, n), updated: row 0 is compression and extension, row j the stretch of arm j. zd, xd:
+rates of the top at the end of the step. tools: of the step and of so many springs (times.py). excess, along a line:
+None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the end, and of -2 w s of those that slip
+back, for `as_they_are`. each: None or Each. look: None or Look. Out comes an Answer.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -27,6 +27,7 @@ from mdr.tools.jit import compiled, inner
 from mdr.tools.linked import LINKED
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+# inlined by LLVM: a call would copy its arguments, arrays in named tuples, word by word, as costly as the springs
 _LENT: Any = {"forceinline": True, "error_model": "numpy", "fastmath": FAST, **LENT, **LINKED}
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 

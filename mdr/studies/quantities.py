@@ -17,9 +17,9 @@ from mdr.case.paths import VELOCITIES
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
-from mdr.friction.cof_curve import CofPoints
+from mdr.friction.cof_curve import Columns
 from mdr.friction.measured_velocity import measure_critical_velocity
-from mdr.normal.normal_force import mean_normal_force
+from mdr.normal.normal_force import full_cof, mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import Array
 from mdr.tools.messages import offer, short
@@ -62,7 +62,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class CurveQuantity(Quantity):
-    """A quantity of all velocities of a case: of(case, points) returns an array in their shape."""
+    """A quantity of all velocities of a case: of(case, curve) returns an array in their shape, curve being Columns."""
 
     of: Callable[..., Any]
     per_velocity: bool = field(default=True, kw_only=True)
@@ -75,20 +75,20 @@ class _Attribute:
     name: str
     known: Callable[[SlidingContact], Any] | None = None
 
-    def __call__(self, case: SlidingContact, curve: CofPoints | None = None) -> Any:
+    def __call__(self, case: SlidingContact, curve: Columns | None = None) -> Any:
         return getattr(self.known(case) if self.known else case if curve is None else curve, self.name)
 
 
-def _cof_y(case: SlidingContact, curve: CofPoints) -> Array:
-    return np.zeros(curve.v_0.shape) if curve.cof_y is None else curve.cof_y
+def _share(case: SlidingContact, curve: Columns) -> Array:
+    return curve.cof / full_cof(case)
 
 
-def _mean_F_x(case: SlidingContact, curve: CofPoints) -> Array:
+def _mean_F_x(case: SlidingContact, curve: Columns) -> Array:
     return curve.cof * mean_normal_force(case)
 
 
-def _mean_F_z(case: SlidingContact, curve: CofPoints) -> Array:
-    return np.full(curve.v_0.shape, mean_normal_force(case))
+def _mean_F_z(case: SlidingContact, curve: Columns) -> Array:
+    return np.full(curve.cof.shape, mean_normal_force(case))
 
 
 def _measured(case: SlidingContact) -> float:
@@ -111,8 +111,8 @@ CATALOGUE: dict[str, Quantity] = {
         Quantity("T", "-", _Attribute("T"), "omega tau of the long-time branch"),
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
         CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction"),
-        CurveQuantity("cof_y", "-", _cof_y, "the same across the pull, mean F_y over mean F_z"),
-        CurveQuantity("share", "-", _Attribute("share"), "cof over that of full slip, cof/mu_0 by Coulomb's law"),
+        CurveQuantity("cof_y", "-", _Attribute("cof_y"), "the same across the pull, mean F_y over mean F_z"),
+        CurveQuantity("share", "-", _share, "cof over that of full slip, cof/mu_0 by Coulomb's law"),
         CurveQuantity("cof_error", "-", _Attribute("cof_error"), "bound on the numerical error of cof"),
         CurveQuantity("stick_share", "-", _Attribute("stick_share"), "force-weighted share of contact time in stick"),
         CurveQuantity("settled", "-", _Attribute("settled"), "1 where the run settled, else 0"),

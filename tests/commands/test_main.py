@@ -56,7 +56,7 @@ def made_up_curve(case, v_0, accuracy=1e-5, settled=True):
     return mdr.CofCurve(
         v_0=np.asarray(v_0), cof=np.full(n, 0.3), cof_error=np.where(states, 1e-6, np.nan), settled=states,
         stick_share=np.zeros(n), v_c=mdr.critical_velocity(case), mu_0=case.mu_0, full_cof=case.mu_0, static_cof=0.2,
-        why=tuple("" if state else "F_x still drifts" for state in states), cof_y=None,
+        why=tuple("" if state else "F_x still drifts" for state in states),
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from numba.core.runtime import _nrt_python, rtsys
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.march.dynamics.state import on_other_springs
 from mdr.march.dynamics.stepper import Stepper, least_between
 from mdr.march.periodic.steady import Resolution, at_hand
 
@@ -59,3 +60,22 @@ def test_a_combination_of_states_is_brought_into_the_cone_of_friction(shake):
     inside.e[:] = 0.9 * turned * inside.s
     assert_allclose(stepper.within_friction(state).e, turned * state.s, rtol=1e-15)
     assert_allclose(stepper.within_friction(inside.copy()).e, inside.e, rtol=0)
+
+
+@pytest.mark.parametrize("ways", [1, 2], ids=["line", "plane"])
+def test_a_state_goes_to_other_springs_on_straight_lines_over_their_gaps(ways):
+    rng = np.random.default_rng(ways)
+    gap, on = rng.permutation(np.linspace(-3.0, 1.0, 7)), np.linspace(-3.5, 1.5, 12)  # some lie beyond
+    e, body = rng.normal(size=(2, 3, 7, ways)), rng.normal(size=(2, 2 * ways))  # two states with two arms
+    moved = on_other_springs(np.column_stack([e.reshape(2, -1), body]), gap, np.argsort(gap), on, ways)
+    assert_allclose(moved[:, -2 * ways :], body, rtol=0)
+    order = np.argsort(gap)
+    known = np.apply_along_axis(lambda one: np.interp(on, gap[order], one[order]), 2, e)
+    assert_allclose(moved[:, : -2 * ways], known.reshape(2, -1), rtol=1e-12)
+
+
+@pytest.mark.parametrize("n", [1, 5])
+def test_where_all_springs_have_one_gap_the_last_is_taken(n):
+    x = np.arange(n + 2.0)[None]
+    moved = on_other_springs(x, np.full(n, -2.0), np.arange(n), np.full(3, -2.0), 1)
+    assert_allclose(moved, [[n - 1, n - 1, n - 1, n, n + 1]], rtol=0)

@@ -189,3 +189,11 @@ def test_the_normal_part_may_be_cut_into_two(material):
         s_2, a_2, m_2, _ = second.pressed()
         assert_allclose(s_2, s, rtol=0, atol=1e-11)
         assert_allclose([a_1 + a_2, m_1 + m_2 + half * a_2], [area, moment], rtol=0, atol=1e-11)
+
+
+def test_tools_of_fewer_springs_are_refused():
+    one = rows(MATERIALS["elastic"])[0]
+    end, tools = one.from_then(one.h), tools_for(one.law, one.h, one.gap.size - 1)
+    springs = Springs(one.gap, one.w)
+    with pytest.raises(ValueError, match="of fewer springs"):
+        row(one.s.copy(), one.e.copy(), springs, one.path, end.z_1, end.x_1, *one.law, tools, None, None, None)

@@ -54,6 +54,18 @@ def test_a_run_that_did_not_settle_keeps_its_numbers(monkeypatch):
     assert study.why.tolist() == ["", "F_x drifts", ""]  # a settled run has nothing to explain
 
 
+@pytest.mark.parametrize("shake", [None, mdr.InPlaneOscillation(300.0, 2e-6)], ids=["still", "shaken"])
+def test_a_limit_at_rest_above_them_contradicts_the_runs_of_a_shaken_contact_as_in_a_curve(shake, monkeypatch):
+    case = replace(BODY, shake=shake)
+    monkeypatch.setattr("mdr.friction.cof_curve._at_rest", lambda *_: (10.0, 0.0, True, 1.0, "", 0.0))
+    study = mdr.sweep(case, {"v_0": [2e-4]}, quantities=["cof", "cof_error", "settled"], **COARSE)
+    curve = mdr.cof_curve(case, [2e-4], **COARSE)
+    for name in study.quantities[:3]:
+        assert_array_equal(study[name], getattr(curve, name))
+    assert curve.settled.tolist() == [shake is None]
+    assert study.why.tolist() == list(curve.why)
+
+
 def test_of_velocities_that_are_computed_together_only_the_guilty_fail():
     """Beyond 1e15 times Eq. (1) a march refuses."""
     study = mdr.sweep(BODY, {"v_0": [1e-4, 1e20, 2e-4]}, quantities=["cof"], **COARSE)

@@ -9,6 +9,7 @@ from grids import BODY, COARSE, RIGID, depth
 from numpy.testing import assert_array_equal
 
 import mdr
+from mdr.friction.cof_curve import cof_at
 from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.normal.normal_force import mean_normal_force
 from mdr.studies.quantities import CATALOGUE, CurveQuantity, Quantity
@@ -29,7 +30,8 @@ OF_CURVE = {
 
 
 def test_the_catalogue_is_what_the_functions_return():
-    curve = mdr.cof_curve(RIGID, [0.0, 1e-4, 1e-3])
+    v_0 = [0.0, 1e-4, 1e-3]
+    columns, curve = cof_at(RIGID, v_0), mdr.cof_curve(RIGID, v_0)
     assert CATALOGUE["measured_v_c"].of(RIGID) == mdr.measure_critical_velocity(RIGID).v_c
     assert set(CATALOGUE) == {"measured_v_c", *OF_CASE, *OF_CURVE}
     for name, one in CATALOGUE.items():
@@ -41,15 +43,15 @@ def test_the_catalogue_is_what_the_functions_return():
         if name in OF_CASE:
             assert one.of(BODY) == OF_CASE[name](BODY)
         elif name in OF_CURVE:
-            assert_array_equal(one.of(RIGID, curve), OF_CURVE[name](curve))
+            assert_array_equal(one.of(RIGID, columns), OF_CURVE[name](curve))
 
 
 def test_mean_forces_are_those_of_a_run():
     """To the error of its springs and steps: 1e-5 of mu_0 by default."""
     v_0 = 0.5 * mdr.critical_velocity(BODY)
-    run, curve = mdr.slide(BODY, v_0), mdr.cof_curve(BODY, [v_0])
+    run, columns = mdr.slide(BODY, v_0), cof_at(BODY, [v_0])
     for name in ("mean_F_x", "mean_F_z"):
-        assert CATALOGUE[name].of(BODY, curve)[0] == pytest.approx(getattr(run, name), rel=1e-5)
+        assert CATALOGUE[name].of(BODY, columns)[0] == pytest.approx(getattr(run, name), rel=1e-5)
 
 
 def test_no_critical_velocity_is_a_reason(monkeypatch):

@@ -105,8 +105,7 @@ def pushed(c, k):  # type: ignore[no-untyped-def]
 
 def _stuck(law: Law, h: float, area: Pair, moment: Pair) -> Square:
     """Derivative of what the force takes off, if all springs stick: they move by p t + q t², p and q of (y, y')."""
-    # of area and moment of the force by p and q
-    T = law.T
+    T = law.T  # derivatives of the area a and the moment b of the force by p and q
     a_p, a_q, b_p = h**2 / 2 + T * h, h**3 / 3 + T * h**2, h**3 / 3 + T * h**2 / 2
     b_q = h**4 / 4 + 2 * T * h**3 / 3
     for rho, rate in zip(*(law.arms or ((), ())), strict=True):

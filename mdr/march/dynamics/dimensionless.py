@@ -217,8 +217,8 @@ class ScaledContact:
         return Limit.of(self.normal, self.springs, self.drive.z, self.drive.z_dot, self.law, self.faces)
 
     @cached_property
-    def bears(self) -> Array:
-        """The most that each spring bears (n,), as a force."""
+    def greatest_force(self) -> Array:
+        """Bound on the friction of each spring in the period, (n,)."""
         return self.springs.w * self.limit.greatest
 
     @cached_property

@@ -58,7 +58,7 @@ def within_friction(x, s, most):
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)
 def on_other_springs(xs, gap, order, on, ways):
     """State vectors (k, n_x) of springs with these gaps (n,), and the order of rising ones, on springs with the gaps
-    `on` (m,): linear between those, and beyond as the first or the last.
+    `on` (m,): linear between those, and beyond as the first or the last; where all are one gap, as the last.
     """
     k, n, m = len(xs), gap.size, on.size
     parts = (xs.shape[1] // ways - N_BODY) // n

@@ -125,7 +125,7 @@ class Stepper:
             return UNKNOWN if pull else 0.0
         went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
         late = np.abs(went) > WITH_IT * n_periods * pull
-        return 2 * float(self.scaled.bears @ late) / self.mean_limit
+        return 2 * float(self.scaled.greatest_force @ late) / self.mean_limit
 
     def _marched(self, state: MarchState, n_periods: int) -> loop.Trace:
         """A whole number of periods in place, counted."""

@@ -66,11 +66,11 @@ def search(
 @lru_cache(maxsize=32)
 def _how(scaled: ScaledContact) -> Options:
     """How to look for the periodic state of a contact, at any velocity."""
-    slow, (roots, moved) = _slow_times(scaled), _energy_of(scaled)
+    slow, (roots, places) = _slow_times(scaled), _energy_of(scaled)
     stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
     memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
     at_once = max(1, AT_ONCE // scaled.drive.steps)
-    return Options(roots, moved, slow, stable, memory, most, at_once)
+    return Options(roots, places, slow, stable, memory, most, at_once)
 
 
 def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
@@ -106,10 +106,9 @@ def at_other_resolution(
     state: MarchState, motions: SlowMotions | None, of: ScaledContact, on: ScaledContact
 ) -> tuple[MarchState, SlowMotions | None]:
     """A state of a march with other springs or steps, and the slow motions about it, on those of this one."""
-    xs, gap = state.x[None], of.springs.gap
-    if motions is not None:
-        xs = np.concatenate([xs, motions.before, motions.after])
-    if gap.size != on.springs.gap.size or not np.array_equal(gap, on.springs.gap):
+    parts = [state.x[None]] if motions is None else [state.x[None], motions.before, motions.after]
+    xs, gap = np.concatenate(parts), of.springs.gap
+    if not np.array_equal(gap, on.springs.gap):
         xs = on_other_springs(xs, gap, of.order, on.springs.gap, on.ways)
     if motions is not None:
         k = len(motions.before)
@@ -134,11 +133,11 @@ def _energy_of(scaled: ScaledContact) -> tuple[Array, tuple[Any, ...]]:
     of_springs = np.multiply.outer(np.sqrt((1.0, *rheology.rho)), np.sqrt(scaled.springs.w))
     of_bodies = [[0.0 if one.rigid else one.K for one in bodies], [one.M for one in bodies]]
     roots = np.concatenate([np.repeat(of_springs.ravel(), ways), np.sqrt(of_bodies).ravel()])
-    n, body = of_springs.shape[1], ways * of_springs.size  # places of springs, and of the body
-    moved: list[Any] = []
+    n, body = of_springs.shape[1], ways * of_springs.size  # springs, and where the numbers of the body begin
+    places: list[Any] = []
     for way, one in enumerate(bodies):
-        moved += [body + ways * part + way for part in ((Y, RATE) if one.M else () if one.rigid else (Y,))]
+        places += [body + ways * part + way for part in ((Y, RATE) if one.M else () if one.rigid else (Y,))]
     parts = [1 + j for j, theta in enumerate(rheology.theta) if theta > FORGOTTEN]
-    parts = parts if parts or moved else [0]
-    moved += [slice(ways * j * n + way, ways * (j + 1) * n, ways) for way in range(ways) for j in parts]
-    return roots, tuple(moved)
+    parts = parts if parts or places else [0]
+    places += [slice(ways * j * n + way, ways * (j + 1) * n, ways) for way in range(ways) for j in parts]
+    return roots, tuple(places)

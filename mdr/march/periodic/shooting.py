@@ -81,7 +81,7 @@ class Options:
     """How to look for a periodic state, of n_x numbers."""
 
     roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
-    moved: tuple[Any, ...]  #: k places of slow motions among the n_x numbers
+    places: tuple[Any, ...]  #: k, one of a number or several, of what moves slowly among the n_x numbers
     slow: tuple[float, ...]  #: relaxation times of material and pull, in periods, that a period does not relax
     stable: bool  #: whether it is guaranteed that with these no multiplier reaches 1
     memory: int  #: periods that Anderson's method combines
@@ -91,8 +91,8 @@ class Options:
     @cached_property
     def pushes(self) -> Array:
         """Displacements (k, n_x) of unit length along the slow motions."""
-        pushes = np.zeros((len(self.moved), self.roots.size))
-        for push, at in zip(pushes, self.moved, strict=True):
+        pushes = np.zeros((len(self.places), self.roots.size))
+        for push, at in zip(pushes, self.places, strict=True):
             push[at] = 1 / np.sqrt(np.sum(self.roots[at] ** 2))
         return pushes
 
@@ -252,7 +252,7 @@ class Shooting:
         that its own change is small beside a push, and blurs what is seen of it; None for a map that expands.
         """
         roots, slow = self.how.roots, max(self.how.slow, default=0.0)
-        _, moved, size = self._pushed(np.ones(len(self.how.moved)), PUSH)
+        _, moved, size = self._pushed(np.ones(len(self.how.places)), PUSH)
         before, after = moved * roots / size
         if not np.isfinite(moved).all():
             return None
@@ -284,7 +284,7 @@ class Shooting:
         the same way and as far, to see the slope on both sides of it.
         """
         search, roots, push, lost = self.search, self.how.roots, PUSH, 0
-        ways = np.ones(len(self.how.moved))
+        ways = np.ones(len(self.how.places))
         for _ in range(TURNS):
             if not search.changes[LEAST] > search.changes[ENOUGH] or lost == LOST or time_is_over():
                 break

@@ -55,7 +55,8 @@ class Waiting:
             self.state, periods = self.stepper.advance(before, part)
             self.append(periods)
         self.late = self.stepper.late(before, self.state, periods.cof.size)
-        self.least_slip = self.stepper.least_slip(self.stepper.last, self.stepper.cof_of(self.stepper.last)[0])
+        last = self.stepper.last
+        self.least_slip = self.stepper.least_slip(last, self.stepper.cof_of(last)[0])
 
     def append(self, periods: Periods) -> None:
         """Add further periods to those that the judgement rests on."""
