@@ -43,7 +43,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -106,15 +105,14 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     v_0 = finite_array("v_0", v_0, "m/s")
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
-    v = v_0.ravel() / case.unit_velocity
-    fine, coarse = (_integrals(case, v, rule) for rule in (double_exponential(), double_exponential().coarser))
+    fine, coarse, sticks = _integrals(case, v_0.ravel() / case.unit_velocity, double_exponential())
     # halving the step would square the error of the rule; 1e-13 is rounding
-    error = np.abs(fine[0] - coarse[0]) ** 1.5 + 1e-13
+    error = np.abs(fine - coarse) ** 1.5 + 1e-13
     shape = v_0.shape
     return RigidPullFriction(
-        cof=case.mu_0 * (1 - fine[0]).reshape(shape),
+        cof=case.mu_0 * (1 - fine).reshape(shape),
         cof_error=case.mu_0 * error.reshape(shape),
-        stick_share=np.clip(fine[1], 0, 1).reshape(shape),  # of a contact of an instant, but for rounding
+        stick_share=np.clip(sticks, 0, 1).reshape(shape),  # of a contact of an instant, but for rounding
     )
 
 
@@ -187,28 +185,26 @@ def _stiffness(case: SlidingContact, gap: Array) -> Array:
 
 
 def _integrals(case: SlidingContact, v: Array, rule: Rule) -> Array:
-    """1 - mu/mu_0 and the share of stick, shape (2, n_v), by the rule between the marks; for v >= 1 nothing sticks."""
-    out, slow = np.zeros((2, v.size)), v < 1
+    """1 - mu/mu_0 by the rule between the marks and by the coarser one, and the share of stick, shape (3, n_v); for
+    v >= 1 nothing sticks.
+    """
+    out, slow = np.zeros((3, v.size)), v < 1
     if not slow.any():
         return out
     v, T, cycle = v[slow], case.T, case.cycle
     longest = _longest_stick(v, T)
     # the greater the gap, the later the touch and the shorter the stick
-    marks = sorted(edge_marks(case, joints=True), reverse=True)
-    ends = [np.zeros_like(v), *(_stick_of_touch(touching_phase(gap, T), v, T, longest) for gap in marks), longest]
-    lag, sticks = np.zeros_like(v), np.zeros_like(v)
-    for low, high in pairwise(ends):
-        sigma = rule.between(low, high)
-        stick = _stick(sigma, v[:, None], T)
-        gap = contact_edge(stick.begin, T)
-        weight = (high - low)[:, None] * rule.weight * _stiffness(case, gap)
-        lag += np.sum(weight * stick.D * (T + sigma / (1 - stick.kept)) * (1 - stick.slope), axis=1)
-        sticks += np.sum(weight * _impulse_rate(stick, gap, T), axis=1)
-    core = _stick(longest, v, T)
-    depth = cycle.u_z0 + cycle.unit * contact_edge(core.begin, T)
-    core_force = np.asarray(case.indenter.force(depth, case.material.E_star))
-    F_N = mean_normal_force(case)
-    out[:, slow] = np.array([lag, sticks + longest * core_force / cycle.unit]) * cycle.unit / (2 * np.pi * F_N)
+    touches = [touching_phase(gap, T) for gap in sorted(edge_marks(case, joints=True), reverse=True)]
+    ends = np.array([0 * v, *(_sticks_of_touches(touches, v, T, longest) if touches else ()), longest])
+    stick = _stick(rule.between(ends[:-1], ends[1:]), v[:, None], T)  # arrays (pieces, n_v, nodes)
+    gap = contact_edge(stick.begin, T)
+    weight = np.diff(ends, axis=0)[..., None] * _stiffness(case, gap)
+    lag = weight * stick.D * (T + stick.sigma / (1 - stick.kept)) * (1 - stick.slope)
+    sticks = np.sum(weight * _impulse_rate(stick, gap, T) @ rule.weight, axis=0)
+    fine, coarse = np.sum(lag @ rule.weight, axis=0), np.sum(lag[..., ::2] @ rule.coarser.weight, axis=0)
+    depth = cycle.u_z0 + cycle.unit * contact_edge(_stick(longest, v, T).begin, T)
+    sticks += longest * np.asarray(case.indenter.force(depth, case.material.E_star)) / cycle.unit
+    out[:, slow] = np.array([fine, coarse, sticks]) * cycle.unit / (2 * np.pi * mean_normal_force(case))
     return out
 
 
@@ -230,21 +226,24 @@ def _stick(sigma: Array, v: Array, T: float) -> _Stick:
 
 def _longest_stick(v: Array, T: float) -> Array:
     """The stick phase of the core; it begins where D rises through zero; shape (n_v,)."""
-    return _bisect(lambda sigma: _stick(sigma, v, T).D > 0, np.zeros_like(v), np.full_like(v, 2 * np.pi))
+    return _last(lambda sigma: _stick(sigma, v, T).D > 0, np.full_like(v, 2 * np.pi))
 
 
-def _stick_of_touch(begin: float, v: Array, T: float, longest: Array) -> Array:
-    """Length of the stick phase of a spring that touches at `begin`; 0 or the longest if it does not stick at once."""
-    return _bisect(lambda sigma: _stick(sigma, v, T).begin > begin, np.zeros_like(v), longest)
+def _sticks_of_touches(begins: list[float], v: Array, T: float, longest: Array) -> Array:
+    """Length of the stick phase of springs that touch at `begins`, shape (n, n_v); 0 or the longest if one does not
+    stick at once.
+    """
+    begin = np.array(begins)[:, None]
+    return _last(lambda sigma: _stick(sigma, v, T).begin > begin, np.broadcast_to(longest, (begin.size, v.size)))
 
 
-def _bisect(is_low: Callable[[Array], NDArray[np.bool_]], low: Array, high: Array) -> Array:
-    """End of the interval from `low` in which a condition holds, by bisection to rounding, element by element."""
-    for _ in range(54):
-        middle = 0.5 * (low + high)
-        below = is_low(middle)
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return np.asarray(low)
+def _last(holds: Callable[[Array], NDArray[np.bool_]], high: Array) -> Array:
+    """End of the interval from 0 in which a condition holds, below `high`: eight sections a round, to rounding."""
+    low, section = np.zeros_like(high), high / 8
+    for _ in range(18):
+        within = holds(low + np.multiply.outer(np.arange(1.0, 8.0), section))
+        low, section = low + np.logical_and.accumulate(within).sum(axis=0) * section, section / 8
+    return low
 
 
 def _impulse_rate(stick: _Stick, gap: Array, T: float) -> Array:
