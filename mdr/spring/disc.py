@@ -18,12 +18,12 @@ from mdr.spring.dragged import EVEN, TINY, Slip, slides, yielded
 from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_pressing
 from mdr.spring.law import phi_of
 from mdr.spring.motion import end_force, glassy, held_force, hold
-from mdr.spring.path import FAST, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, cubic_later, size_of, slope
+from mdr.spring.path import FAST_IN_PLANE, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, cubic_later, size_of, slope
 from mdr.spring.times import PART, fill
 from mdr.spring.whole import TOUCHING
 from mdr.tools.jit import inner
 
-_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST_IN_PLANE, **LENT)
 
 BEGINS = -1  #: the mode is still to be found
 MOST_HALVINGS = 60  #: in the search for the end of a mode
@@ -93,10 +93,12 @@ def between(b):
 
 @_inline
 def nearer(b, mid, f):
-    """A bracket after a look at mid, by regula falsi (the Illinois method)."""
+    """A bracket after a look at mid, by regula falsi: an end that stays twice counts less (Anderson & Björck 1973)."""
     if (f < 0.0) == (b.f_high < 0.0):
-        return Bracket(b.low, mid, b.f_low * (0.5 if b.side > 0 else 1.0), f, 1)
-    return Bracket(mid, b.high, f, b.f_high * (0.5 if b.side < 0 else 1.0), -1)
+        less = 1.0 - f / b.f_high
+        return Bracket(b.low, mid, b.f_low * (1.0 if b.side <= 0 else less if less > 0.0 else 0.5), f, 1)
+    less = 1.0 - f / b.f_low
+    return Bracket(mid, b.high, f, b.f_high * (1.0 if b.side >= 0 else less if less > 0.0 else 0.5), -1)
 
 
 # --- stick ---

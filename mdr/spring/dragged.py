@@ -24,10 +24,10 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.spring.law import phi_of
-from mdr.spring.path import FAST, LENT, along, at, cubic_later, size_of, slope
+from mdr.spring.path import FAST_IN_PLANE, LENT, along, at, cubic_later, size_of, slope
 from mdr.tools.jit import inner
 
-_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+_inline = inner(forceinline=True, error_model="numpy", fastmath=FAST_IN_PLANE, **LENT)
 
 GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
 EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together

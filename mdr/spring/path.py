@@ -12,6 +12,7 @@ import numpy as np
 from mdr.tools.jit import inner
 
 FAST = {"reassoc", "contract"}
+FAST_IN_PLANE = FAST | {"arcp", "nsz"}  # what is divided by the length of a vector shares its reciprocal
 # arrays are only lent to these functions: numba need not count references to them, which takes time, to compile too
 LENT = {"_nrt": False}
 OWN = {"_nrt": True}  # of functions that make arrays; lent ones may call them, but get none of those

@@ -24,7 +24,7 @@ from mdr.spring.dragged import (
     yielded,
 )
 from mdr.spring.law import phi_of
-from mdr.spring.path import FAST, LENT, ROUNDING, Cubic, along, area_on_parabola, at, size_of, slope
+from mdr.spring.path import FAST, FAST_IN_PLANE, LENT, ROUNDING, Cubic, along, area_on_parabola, at, size_of, slope
 from mdr.tools.jit import inner
 
 TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
@@ -94,7 +94,7 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
     )
 
 
-@inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
+@inner(forceinline=True, error_model="numpy", fastmath=FAST_IN_PLANE, **LENT)
 def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
     """The springs that do one thing for all of a step h in the plane: their Answer.
 
