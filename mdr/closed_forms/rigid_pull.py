@@ -56,6 +56,8 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord
 
+AT_ONCE = 128  #: numbers that an array operation takes hardly longer for than for one
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RigidPullFriction(ArrayRecord):
@@ -238,11 +240,14 @@ def _sticks_of_touches(begins: list[float], v: Array, T: float, longest: Array) 
 
 
 def _last(holds: Callable[[Array], NDArray[np.bool_]], high: Array) -> Array:
-    """End of the interval from 0 in which a condition holds, below `high`: eight sections a round, to rounding."""
-    low, section = np.zeros_like(high), high / 8
-    for _ in range(18):
-        within = holds(low + np.multiply.outer(np.arange(1.0, 8.0), section))
-        low, section = low + np.logical_and.accumulate(within).sum(axis=0) * section, section / 8
+    """End of the interval from 0 in which a condition holds, below `high`, to rounding: cut in sections round by round,
+    in as many as an array operation does at once.
+    """
+    sections = int(np.clip(AT_ONCE // high.size, 8, 64))
+    low, section, inner = np.zeros_like(high), high / sections, np.arange(1.0, sections)
+    for _ in range(int(np.ceil(54 / np.log2(sections)))):
+        within = holds(low + np.multiply.outer(inner, section))
+        low, section = low + np.logical_and.accumulate(within).sum(axis=0) * section, section / sections
     return low
 
 
