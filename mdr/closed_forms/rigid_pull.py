@@ -8,33 +8,33 @@ normal motion s (normal/kelvin_edges.py) and the extension e; its lag behind ful
 and the COF is mu_0 (1 - sum of the mean lags / sum of the mean s). In contact s' = -sin(phase) is the same for all
 springs, so they differ only in the phase theta at which they touch. Three facts make the mean a single integral.
 
-1. A spring sticks at most once in a period. D = s' - v + p/T is positive in stick. The core starts to stick at the
-   phase where its D rises through zero. Springs that touch before this phase stick as the core does. Those that touch
+1. A spring sticks at most once in a period. D = s' - v + p/T is positive in stick. The core, all springs that press as
+   D of theirs rises through zero, starts to stick there, at a phase that is again called theta. Springs that touch
    later stick at once, from theta to b = theta + sigma, if D(theta) > 0, and never otherwise.
-2. The periodic stick is known. E = exp(-(2 pi - sigma)/T) is the share of a lag that is left from b to the next touch:
+2. The periodic stick is known. Q = exp(-(2 pi - sigma)/T) is the share of a lag that is left from b to the next stick:
 
-       p(b) (1 - E) = cos b - cos theta - v sigma,   p(b) = T (v + sin b)  [D(b) = 0],
+       p(b) (1 - Q) = cos b - cos theta - v sigma,   p(b) = T (v + sin b)  [D(b) = 0],
 
-   which for a given sigma is linear in sin b and cos b: b(sigma) and theta(sigma) are explicit. The phases run from
-   sigma = 0, where sin b = -v, to the longest stick, that of the core, where D(theta) = 0.
+   which for a given sigma is linear in sin b and cos b: b(sigma) and theta(sigma) are explicit. The lengths run from
+   sigma = 0, where sin b = -v, to that of the core, the longest, where D(theta) = 0.
 3. Neighbouring springs differ only at their touch. A spring that touches d theta earlier has the lag D d theta more at
    once. This difference is constant through its stick and decays through its slip. The mean of its lag is larger by
-   D [T + sigma/(1 - E)] d theta/(2 pi).
+   D [T + sigma/(1 - Q)] d theta/(2 pi).
 
-Summed by parts over the array, with k_zc the stiffness 2E*a of the contact at the instant theta,
+Summed by parts over the array, with k_zc the stiffness 2 E* a of the contact at the instant theta,
 
-    1 - mu/mu_0 = du_z/<F_N> (1/2 pi) integral of k_zc(theta) D(theta) [T + sigma/(1 - E)] d theta,       (*)
+    1 - mu/mu_0 = du_z/(2 pi <F_N>) integral of k_zc(theta) D(theta) [T + sigma/(1 - Q)] d theta,       (*)
 
-d theta = (D/G - 1) d sigma with G = T (1 - E) cos b + sin b - sin theta. T = 0 is the limit E = 0: D = -sin theta - v,
-and mu/mu_0 = 1 - du_z/<F_N> (1/2 pi) integral of k_zc(theta) sigma(theta) (-sin theta - v) d theta.
+d theta = (D/G - 1) d sigma with G = T (1 - Q) cos b + sin b - sin theta. T = 0 is the limit Q = 0: D = -sin theta - v,
+and mu/mu_0 = 1 - du_z/(2 pi <F_N>) integral of k_zc(theta) sigma(theta) (-sin theta - v) d theta.
 
 What follows from (*):
 
-* near v = 1 for u_z0 > 0: 1 - mu/mu_0 -> (9/4 pi) k_zc du_z/<F_N> (1 - v)² for an elastic contact, and
-  (2 sqrt(2) T/3 pi) k_zc du_z/<F_N> (1 - v)^(3/2) for a Kelvin one, whose lag outlives the stick by the time T; k_zc
-  is that of the springs in contact at phase 3 pi/2, the instant of fastest approach;
+* near v = 1, if the centre presses at phase 3 pi/2, the instant of fastest approach: 1 - mu/mu_0 ->
+  9/(4 pi) k_zc du_z/<F_N> (1 - v)² for an elastic contact, and 2 sqrt(2) T/(3 pi) k_zc du_z/<F_N> (1 - v)^(3/2) for a
+  Kelvin one, whose lag outlives the stick by the time T; k_zc is that of the springs in contact at this instant;
 * near v = 0: mu/mu_0 -> min F_N/<F_N> + c v^q. Elastic q = 1 with
-  c = (2/pi) du_z/<F_N> integral from 0 to pi of phi k_zc(u_z0 + du_z cos phi) d phi. Kelvin with a kept core q = 2/3
+  c = 2/pi du_z/<F_N> integral from 0 to pi of phi k_zc(u_z0 + du_z cos phi) d phi. Kelvin with a kept core q = 2/3
   with c = ½ R^(1/3) (3 pi T)^(2/3) k_zc(u_z0 - R du_z) du_z/<F_N>, R = sqrt(1 + T²): at its least force
   the core slips for a time ~ v^(1/3), during which it gives back what it was pulled in the rest of the period.
 """
@@ -64,7 +64,7 @@ class RigidPullFriction(ArrayRecord):
     """Average friction under a rigid pull; arrays in the shape of v_0."""
 
     cof: Array  #: average coefficient of friction [-]
-    cof_error: Array  #: bound on its quadrature and rounding [-]
+    cof_error: Array  #: bound on its error, of quadrature and rounding [-]
     stick_share: Array  #: force-weighted share of contact time spent sticking [-]
 
 
@@ -81,10 +81,10 @@ class _Stick:
     """One stick phase, as a function of its length; arrays of one shape."""
 
     sigma: Array  # its length
-    begin: Array  # phase of its start, a touch
+    begin: Array  # phase of its start
     end: Array
     D: Array  # excess of s' over what slip allows, at its start
-    kept: Array  # E: the share of a lag that outlives the slip
+    kept: Array  # Q: the share of a lag that outlives the slip
     slope: Array  # d end/d sigma
 
 
@@ -92,7 +92,8 @@ class _Stick:
 def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     """Average COF under a rigid pull at velocities v_0 > 0 [m/s], any shape; (*) above.
 
-    Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite.
+    Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite, and for a
+    depth that is not harmonic, a material with arms, a shake or a shear strength.
 
     Examples
     --------
@@ -108,19 +109,19 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
     fine, coarse, sticks = _integrals(case, v_0.ravel() / case.unit_velocity, double_exponential())
-    # halving the step would square the error of the rule; 1e-13 is rounding
+    # half the step squares the error of the rule: the power 2, of which 1.5 is on the safe side; 1e-13 is rounding
     error = np.abs(fine - coarse) ** 1.5 + 1e-13
     shape = v_0.shape
     return RigidPullFriction(
         cof=case.mu_0 * (1 - fine).reshape(shape),
         cof_error=case.mu_0 * error.reshape(shape),
-        stick_share=np.clip(sticks, 0, 1).reshape(shape),  # of a contact of an instant, but for rounding
+        stick_share=np.clip(sticks, 0, 1).reshape(shape),  # outside by rounding alone, in contact of an instant
     )
 
 
 @of_coulomb
 def near_critical(case: SlidingContact) -> Asymptote:
-    """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, for u_z0 such that the centre touches at phase 3 pi/2.
+    """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, if the centre presses at phase 3 pi/2; else ValueError.
 
     Examples
     --------
@@ -136,7 +137,9 @@ def near_critical(case: SlidingContact) -> Asymptote:
     k_zc, F_N = _stiffness(case, contact_edge(np.array(1.5 * np.pi), case.T)), mean_normal_force(case)
     share = float(k_zc) * case.cycle.unit / F_N
     if share == 0:
-        raise ValueError("the contact is open at the instant of fastest approach: v_c is less than Eq. (1) here")
+        raise ValueError(
+            "the contact is open at the instant of fastest approach: v_c is less than mu_0 kappa omega du_z, Eq. (1)"
+        )
     if case.T == 0:
         return Asymptote(2.0, 9 / (4 * np.pi) * share)
     return Asymptote(1.5, 2 * np.sqrt(2) * case.T / (3 * np.pi) * share)
@@ -144,7 +147,8 @@ def near_critical(case: SlidingContact) -> Asymptote:
 
 @of_coulomb
 def small_velocity(case: SlidingContact) -> Asymptote:
-    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z).
+    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z). ValueError for a Kelvin
+    contact that is lost entirely.
 
     Examples
     --------
@@ -227,7 +231,7 @@ def _stick(sigma: Array, v: Array, T: float) -> _Stick:
 
 
 def _longest_stick(v: Array, T: float) -> Array:
-    """The stick phase of the core; it begins where D rises through zero; shape (n_v,)."""
+    """Length of the stick of the core, which begins where D rises through zero; shape (n_v,)."""
     return _last(lambda sigma: _stick(sigma, v, T).D > 0, np.full_like(v, 2 * np.pi))
 
 
@@ -240,8 +244,8 @@ def _sticks_of_touches(begins: list[float], v: Array, T: float, longest: Array) 
 
 
 def _last(holds: Callable[[Array], NDArray[np.bool_]], high: Array) -> Array:
-    """End of the interval from 0 in which a condition holds, below `high`, to rounding: cut in sections round by round,
-    in as many as an array operation does at once.
+    """How far from 0 on, up to `high`, a condition holds, to rounding: the interval that has the end in it is cut in
+    sections again and again, in as many as one array operation tries at little cost.
     """
     sections = int(np.clip(AT_ONCE // high.size, 8, 64))
     low, section, inner = np.zeros_like(high), high / sections, np.arange(1.0, sections)

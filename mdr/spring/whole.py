@@ -1,8 +1,8 @@
-"""Springs without arms that stick, slip or fly for all of a step: most of them in most steps.
+"""Springs without Maxwell arms that stick, slip or fly for all of a step, as most of them do in most steps.
 
-What line.py and disc.py follow from event to event is here the case that nothing happens. One loop without branches,
-which is vectorised, works out all modes for every spring, keeps the one that surely holds, and leaves the other springs
-alone.
+One loop without branches, which is vectorised, works out stick, slip and flight for every spring, and keeps the one
+that surely lasts for all of the step. A spring of which none does is not handled here: line.py and disc.py follow it
+from event to event.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -27,7 +27,7 @@ from mdr.spring.law import phi_of
 from mdr.spring.path import FAST, FAST_IN_PLANE, LENT, ROUNDING, Cubic, along, area_on_parabola, at, size_of, slope
 from mdr.tools.jit import inner
 
-TOUCHING = 1e-7  #: part of a step for which a spring has touched whose force has the direction of its motion
+TOUCHING = 1e-7  #: part of a step: a spring that has touched for less has a force along its motion
 
 
 @inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
@@ -35,8 +35,8 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
     """The springs that do one thing for all of a step h along a line: their Answer.
 
     s, e (n,): compressions and extensions, updated. Of made the first n are filled with one, or with zero for a spring
-    that is left alone. excess: as of `row`; theirs is added. A parabola lies below the line through its ends by no more
-    than h²/8 of its curvature.
+    that is not handled. zd, xd: true rates of the top at the end of the step. excess: as of `row`; theirs is added. A
+    parabola lies below the line through its ends by no more than h²/8 of its curvature.
     """
     rate, fallen, z_1, z_2, x_1, x_2 = 0.0, 0.0, path.z_1, path.z_2, path.x_1, path.x_2
     if modes is not None:
@@ -49,8 +49,9 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
     dip, dip_ahead, dip_behind = max(z_2, 0.0), max(z_2 - x_2, 0.0), max(z_2 + x_2, 0.0)
     dip, dip_ahead, dip_behind = 2.0 * eighth * dip, 2.0 * eighth * dip_ahead, 2.0 * eighth * dip_behind
     dip_of_rate = eighth * rate * rate * rate
-    fall_ahead, fall_behind = z_1 - x_1 + 2.0 * T * (z_2 - x_2), z_1 + x_1 + 2.0 * T * (z_2 + x_2)
-    area = moment = end = sticking = back = share = pressed = pressed_moment = pressed_end = of_excess = 0.0
+    # of the margins R - f and R + f that a force f has to slip forward and back, R its limit
+    rate_ahead, rate_behind = z_1 - x_1 + 2.0 * T * (z_2 - x_2), z_1 + x_1 + 2.0 * T * (z_2 + x_2)
+    area = moment = end = sticking = back = normal_area = normal_moment = normal_end = pressed = of_excess = 0.0
     for i in range(gap.size):
         tol, z_0, s_0, e_0, w_i = ROUNDING * (1.0 + abs(gap[i])), path.z_0 - gap[i], s[i], e[i], w[i]
         R, R_1, f, f_1 = z_0 + T * z_1, z_0 + sink + T * z_end, e_0 + T * x_1, e_0 + go + T * x_end
@@ -58,12 +59,12 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
         presses = (s_0 <= z_0 + tol) & (min(R, R_1) - dip > tol)
         flies = (s_0 > z_0 + tol) & (min(s_0, fallen * s_0) > highest - gap[i])
         sticks = presses & (min(ahead, ahead_1) - dip_ahead > tol) & (min(behind, behind_1) - dip_behind > tol)
-        # slip, forward and back: what is left alone, and the least slip velocity
+        # slip, forward and back: s - e, and s + e, which relax as in flight; a lower bound of the slip velocity
         lag, lead = z_0 - e_0, z_0 + e_0
         vel = min(x_1 - z_1 - rate * lag, x_end - z_end - rate * fallen * lag) - dip_of_rate * max(-lag, 0.0)
         vel_back = min(-x_1 - z_1 - rate * lead, -x_end - z_end - rate * fallen * lead) - dip_of_rate * max(-lead, 0.0)
-        begins = (ahead < -tol) | ((ahead <= tol) & (fall_ahead < 0.0))
-        begins_back = (behind < -tol) | ((behind <= tol) & (fall_behind < 0.0))
+        begins = (ahead < -tol) | ((ahead <= tol) & (rate_ahead < 0.0))
+        begins_back = (behind < -tol) | ((behind <= tol) & (rate_behind < 0.0))
         slips = presses & begins & (behind > tol) & (vel > 0.0)
         slips_back = presses & begins_back & (ahead > tol) & (vel_back > 0.0)
         # areas and moments of both forces
@@ -78,10 +79,10 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
         sticking += w_i if sticks else 0.0
         back += w_i if slips_back else 0.0
         bears = w_i if sticks | slides else 0.0
-        share += bears if R > 0.0 else 0.0
-        pressed += bears * normal
-        pressed_moment += bears * lever
-        pressed_end += bears * R
+        pressed += bears if R > 0.0 else 0.0
+        normal_area += bears * normal
+        normal_moment += bears * lever
+        normal_end += bears * R
         of_excess += w_i * (e_1 - s_1 if sticks else (-2.0 * s_1 if slips_back else 0.0))
         s[i] = fallen * s_0 if flies else (s_1 if sticks | slides else s_0)
         e[i] = fallen * e_0 if flies else (e_1 if sticks | slides else e_0)
@@ -90,7 +91,7 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
         excess[0, 0] += of_excess
     stuck = h * sticking
     return Answer(
-        area, moment, end, stuck, 0.5 * h * stuck, sticking, back, pressed, pressed_moment, pressed_end, share
+        area, moment, end, stuck, 0.5 * h * stuck, sticking, back, normal_area, normal_moment, normal_end, pressed
     )
 
 
@@ -98,8 +99,9 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
 def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
     """The springs that do one thing for all of a step h in the plane: their Answer.
 
-    s, e (n,): compressions and extensions. made (4 n,) is filled with what these come to, and then one; or with
-    zero for a spring that is left alone. One array and steady strides, or else the loop is not vectorised.
+    s, e (n,): compressions and extensions, which stay. made (4 n,): of each spring the new s, both parts of the new e,
+    and one; or zero in the last place for a spring that is not handled, and then the others mean nothing. One array and
+    steady strides, or else the loop is not vectorised. zd, xd: true rates of the top at the end of the step.
     """
     viscous, z_1, z_2 = modes is not None, path.z_1, path.z_2
     if not viscous:
@@ -120,7 +122,7 @@ def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
     bulge = 0.25 * h * h * (size_of(q) + max(z_2, 0.0))  # by which a force may come nearer to the rim than at both ends
     sink, go, top = h * (z_1 + h * z_2), scaled(h, p) + scaled(h * h, q), p + scaled(2.0 * h, q)
     area_x = area_y = moment_x = moment_y = end_x = end_y = sticking = 0.0
-    share = pressed = pressed_moment = pressed_end = 0.0
+    normal_area = normal_moment = normal_end = pressed = 0.0
     for i in range(gap.size):
         tol, z_0, e_0 = ROUNDING * (1.0 + abs(gap[i])), path.z_0 - gap[i], e[i]
         R = Cubic(base.a - gap[i], base.b, base.c, 0.0)
@@ -158,10 +160,10 @@ def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
         end_y += w_i * (f_end.imag if sticks | slips else 0.0)
         sticking += w_i if sticks else 0.0
         bears = w_i if sticks | slips else 0.0
-        share += bears if R_end > 0.0 else 0.0
-        pressed += bears * h * (R.a + h * (0.5 * R.b + h / 3.0 * R.c))
-        pressed_moment += bears * h * h * (0.5 * R.a + h * (R.b / 3.0 + 0.25 * h * R.c))
-        pressed_end += bears * R_end
+        pressed += bears if R_end > 0.0 else 0.0
+        normal_area += bears * h * (R.a + h * (0.5 * R.b + h / 3.0 * R.c))
+        normal_moment += bears * h * h * (0.5 * R.a + h * (R.b / 3.0 + 0.25 * h * R.c))
+        normal_end += bears * R_end
         if each is not None:
             each.pressed_for[i], each.f_z[i] = (1.0, R_end) if sticks | slips else (0.0, 0.0)
             each.f[i] = f_end if sticks | slips else 0.0j
@@ -175,4 +177,6 @@ def whole_in_plane(s, e, gap, w, path, zd, xd, h, T, modes, each, made):
         made[4 * i + 3] = 1.0 if sticks | slips | flies else 0.0
     area, moment, end = complex(area_x, area_y), complex(moment_x, moment_y), complex(end_x, end_y)
     stuck = h * sticking
-    return Answer(area, moment, end, stuck, 0.5 * h * stuck, sticking, 0.0, pressed, pressed_moment, pressed_end, share)
+    return Answer(
+        area, moment, end, stuck, 0.5 * h * stuck, sticking, 0.0, normal_area, normal_moment, normal_end, pressed
+    )

@@ -1,5 +1,5 @@
-"""The search for the periodic state of a contact by shooting (shooting.py): which states it begins from, in the norm of
-energy of springs, system spring and mass.
+"""The search for the periodic state of a contact by shooting (shooting.py): the states that it begins from, and what it
+is told of the contact. States are measured by the energy of springs, system spring and mass.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from mdr.march.periodic.settling import LATE, Settling
 from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Found, Options, Shooting, SlowMotions
 from mdr.tools.arrays import Array
 
-FORGOTTEN = 0.3  #: relaxation time over 1/omega of an arm that keeps 1e-9 of itself over a period
+FORGOTTEN = 0.3  #: omega times the relaxation time of an arm that keeps exp(-2 pi/0.3) = 8e-10 over a period
 SLOW_PULL = 100.0  #: relaxation time of a pull, in periods, from which on it is a slow time as those of a material are
 SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resolution too
 MEMORY, MOST = 8, 80  #: periods that Anderson's method combines, and after which it gives up
-A_TIME = (3, 20)  #: how many more of both each slow time of a material gets
+A_TIME = (3, 20)  #: how many more of both for each of the slow times
 UNCOMBINED = 3  #: periods marched before the first combination, while springs find their modes
 
 
@@ -32,7 +32,9 @@ class Orbit:
 
     state: MarchState
     settling: Settling
-    least_slip: float = 0.0  #: in the period before it, the way of the pull, of springs that slip all the time
+    least_slip: float = (
+        0.0  #: least slip velocity along the pull, in the period before it, of springs that slip all the time
+    )
     motions: SlowMotions | None = None  #: the slow ones about it, where they are known
 
 
@@ -43,7 +45,8 @@ def search(
     near: bool = False,
     motions: SlowMotions | None = None,
 ) -> Orbit | None:
-    """The periodic state that a march would end in, from the first of the starts that leads to one; None else.
+    """The periodic state that a march would end in, from the first of the starts whose search ends close enough, or
+    settled; with slow motions from the first that leads to any. None else.
 
     gain: bound on the distance from the periodic state, divided by the change in one period, where it is known. near:
     whether the starts are periodic states themselves, found with other steps, springs or velocity. motions: the slow
@@ -74,7 +77,9 @@ def _how(scaled: ScaledContact) -> Options:
 
 
 def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
-    """Relaxation times, in periods, of what a period does not relax: arms, a dashpot, the pull."""
+    """Times, in periods, of what a period does not relax; CREEP times as much outlasts all of it: of arms, of a dashpot
+    of the material, and beside these of the ringing body, 2M/C; of an overdamped pull.
+    """
     slow = tuple(theta / (2 * np.pi) for theta in scaled.rheology.theta if theta > FORGOTTEN)
     if 2 * np.pi < scaled.law.T:
         slow += (scaled.law.T / (2 * np.pi),)
@@ -90,14 +95,14 @@ def _orbit(found: Found, like: MarchState, motions: SlowMotions | None) -> Orbit
     if found.spread <= SOLVED_TOLERANCE and not found.late:
         settling = Settling(found.cof, found.spread, True, "periodic", found.gain, across=found.cof_y)
     else:
-        why = LATE if found.late else "a periodic state was found, but not how far it may be from the exact one"
+        why = LATE if found.late else "a periodic state was found, but it may be too far from the exact one"
         spread = UNKNOWN if found.late else min(found.spread, UNKNOWN)
         settling = Settling(found.cof, spread, False, "unsettled", found.gain, why, across=found.cof_y)
     return Orbit(MarchState(found.state, like.s.copy()), settling, found.least_slip, motions)
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:
-    """The periodic state from that of full slip, on a driven resonance from that of the body as stick limits it."""
+    """The periodic state, from full slip on; on a driven resonance first from the motion to which stick limits it."""
     driven = stepper.resonant()
     return search(stepper, (*(() if driven is None else (driven,)), stepper.full_slip()))
 
@@ -124,10 +129,10 @@ def gain_at_other_resolution(gain: float | None, one: ScaledContact, other: Scal
 
 def _energy_of(scaled: ScaledContact) -> tuple[Array, tuple[Any, ...]]:
     """Roots (n_x,) of the stiffness of every spring, of every arm of it and of the pull, and of the mass, in each
-    direction: a state vector times them is as long as the root of its energy.
+    direction: the square of a state vector times them is twice its energy.
 
-    And the places of slow motions: of the position and velocity of the body, and of each arm of all springs that
-    outlasts a period; of the springs themselves where there is neither.
+    And the places of slow motions: of the position and velocity of the body, and of each arm of all springs that a
+    period does not forget; of the springs themselves where there is neither.
     """
     ways, rheology, bodies = scaled.ways, scaled.rheology, (scaled.body, scaled.body_across)[: scaled.ways]
     of_springs = np.multiply.outer(np.sqrt((1.0, *rheology.rho)), np.sqrt(scaled.springs.w))
