@@ -43,6 +43,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -200,14 +201,16 @@ def _integrals(case: SlidingContact, v: Array, rule: Rule) -> Array:
     v, T, cycle = v[slow], case.T, case.cycle
     longest = _longest_stick(v, T)
     # the greater the gap, the later the touch and the shorter the stick
-    touches = [touching_phase(gap, T) for gap in sorted(edge_marks(case, joints=True), reverse=True)]
-    ends = np.array([0 * v, *(_sticks_of_touches(touches, v, T, longest) if touches else ()), longest])
-    stick = _stick(rule.between(ends[:-1], ends[1:]), v[:, None], T)  # arrays (pieces, n_v, nodes)
-    gap = contact_edge(stick.begin, T)
-    weight = np.diff(ends, axis=0)[..., None] * _stiffness(case, gap)
-    lag = weight * stick.D * (T + stick.sigma / (1 - stick.kept)) * (1 - stick.slope)
-    sticks = np.sum(weight * _impulse_rate(stick, gap, T) @ rule.weight, axis=0)
-    fine, coarse = np.sum(lag @ rule.weight, axis=0), np.sum(lag[..., ::2] @ rule.coarser.weight, axis=0)
+    marks = sorted(edge_marks(case, joints=True), reverse=True)
+    ends = [0 * v, *(_stick_of_touch(touching_phase(gap, T), v, T, longest) for gap in marks), longest]
+    fine, coarse, sticks = np.zeros((3, v.size))
+    for low, high in pairwise(ends):
+        stick = _stick(rule.between(low, high), v[:, None], T)
+        gap = contact_edge(stick.begin, T)
+        weight = (high - low)[:, None] * _stiffness(case, gap)
+        lag = weight * stick.D * (T + stick.sigma / (1 - stick.kept)) * (1 - stick.slope)
+        fine, coarse = fine + lag @ rule.weight, coarse + lag[:, ::2] @ rule.coarser.weight
+        sticks += weight * _impulse_rate(stick, gap, T) @ rule.weight
     depth = cycle.u_z0 + cycle.unit * contact_edge(_stick(longest, v, T).begin, T)
     sticks += longest * np.asarray(case.indenter.force(depth, case.material.E_star)) / cycle.unit
     out[:, slow] = np.array([fine, coarse, sticks]) * cycle.unit / (2 * np.pi * mean_normal_force(case))
@@ -235,16 +238,13 @@ def _longest_stick(v: Array, T: float) -> Array:
     return _last(lambda sigma: _stick(sigma, v, T).D > 0, np.full_like(v, 2 * np.pi))
 
 
-def _sticks_of_touches(begins: list[float], v: Array, T: float, longest: Array) -> Array:
-    """Length of the stick phase of springs that touch at `begins`, shape (n, n_v); 0 or the longest if one does not
-    stick at once.
-    """
-    begin = np.array(begins)[:, None]
-    return _last(lambda sigma: _stick(sigma, v, T).begin > begin, np.broadcast_to(longest, (begin.size, v.size)))
+def _stick_of_touch(begin: float, v: Array, T: float, longest: Array) -> Array:
+    """Length of the stick of a spring that touches at `begin`; 0 or the longest if it does not stick at once."""
+    return _last(lambda sigma: _stick(sigma, v, T).begin > begin, longest)
 
 
 def _last(holds: Callable[[Array], NDArray[np.bool_]], high: Array) -> Array:
-    """How far from 0 on, up to `high`, a condition holds, to rounding: the interval that has the end in it is cut in
+    """How far from 0 to `high` (n,) a condition holds, to rounding: the interval that has the end in it is cut in
     sections again and again, in as many as one array operation tries at little cost.
     """
     sections = int(np.clip(AT_ONCE // high.size, 8, 64))
