@@ -145,6 +145,7 @@ def plausibility(case: SlidingContact) -> tuple[str, ...]:
     return _doubts_of(with_depth(case))
 
 
+@remembered(maxsize=64)
 def _doubts_of(known: SlidingContact) -> tuple[str, ...]:
     return (*doubts_of(known), *doubts_of_load(known))
 
