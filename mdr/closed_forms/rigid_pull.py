@@ -247,7 +247,7 @@ def _last(holds: Callable[[Array], NDArray[np.bool_]], high: Array) -> Array:
     """How far from 0 to `high` (n,) a condition holds, to rounding: the interval that has the end in it is cut in
     sections again and again, in as many as one array operation tries at little cost.
     """
-    sections = int(np.clip(AT_ONCE // high.size, 8, 64))
+    sections = int(np.clip(AT_ONCE // high.size, 2, 64))
     low, section, inner = np.zeros_like(high), high / sections, np.arange(1.0, sections)
     for _ in range(int(np.ceil(54 / np.log2(sections)))):
         within = holds(low + np.multiply.outer(inner, section))

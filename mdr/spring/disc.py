@@ -93,12 +93,10 @@ def between(b):
 
 @_inline
 def nearer(b, mid, f):
-    """A bracket after a look at mid, by regula falsi: an end that stays twice counts less (Anderson & Björck 1973)."""
+    """A bracket after a look at mid, by regula falsi (the Illinois method)."""
     if (f < 0.0) == (b.f_high < 0.0):
-        less = 1.0 - f / b.f_high
-        return Bracket(b.low, mid, b.f_low * (1.0 if b.side <= 0 else less if less > 0.0 else 0.5), f, 1)
-    less = 1.0 - f / b.f_low
-    return Bracket(mid, b.high, f, b.f_high * (1.0 if b.side >= 0 else less if less > 0.0 else 0.5), -1)
+        return Bracket(b.low, mid, b.f_low * (0.5 if b.side > 0 else 1.0), f, 1)
+    return Bracket(mid, b.high, f, b.f_high * (0.5 if b.side < 0 else 1.0), -1)
 
 
 # --- stick ---
@@ -325,8 +323,10 @@ def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
 @_inline
 def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
     """Slip from now on, for as long as it lasts: until its velocity falls below zero. forced: it lasts in any case."""
-    h = tools.times.h
-    lasts, b = True, Bracket(0.0, t, start.vel, 0.0, 0)
+    h, first = tools.times.h, start.vel
+    if T > 0.0 and start.ahead > 0.0:  # from stick on it begins at rest, or so: what it is an instant later
+        first = max(first, ROUNDING * h * start.ahead / T)
+    lasts, b = True, Bracket(0.0, t, first, 0.0, 0)
     of, way = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Parabola(0.0j, 0.0j)
     for iteration in range(MOST_HALVINGS):
         of, way = slip_over(e, i, top, start, R, t, k, look is not None, G, T, arms, tools)
@@ -334,7 +334,7 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
             if forced or of.vel >= 0.0:
                 break
             lasts = False
-            b = Bracket(0.0, t, start.vel, of.vel, 0)
+            b = Bracket(0.0, t, first, of.vel, 0)
         else:
             b = nearer(b, t, of.vel)
         if (b.high - b.low <= 1e-14 * h and t == b.high) or b.f_low <= 0.0 or abs(of.vel) <= 1e-14 * start.vel:

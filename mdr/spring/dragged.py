@@ -86,7 +86,7 @@ def turned_straight(n, boost):
     half = scaled(0.5 * np.tanh(root) / max(root, TINY), boost)
     x, y = 1.0 + along(half, n), cross(n, half)
     size = x * x + y * y
-    return times(n, (x * x - y * y) / size, 2.0 * x * y / size) if size > 0.0 else n
+    return times(n, (x * x - y * y) / size, 2.0 * x * y / size) if size > TINY else n
 
 
 @_inline

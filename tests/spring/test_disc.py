@@ -6,13 +6,20 @@ from numpy.testing import assert_allclose
 from rows import row
 
 from mdr.spring.contact import Each, Look, Springs
+from mdr.spring.dragged import turned_straight
 from mdr.spring.energies import N_SUMS, nodes_of
 from mdr.spring.law import law_of
 from mdr.spring.path import Path
 from mdr.spring.times import tools_for
+from mdr.tools.jit import compiled
 
 LAWS = {"elastic": law_of(0.0), "kelvin": law_of(0.4), "two arms": law_of(0.0, (1.0, 0.5), (1.0, 5.0))}
 H = 0.05
+
+
+@compiled(error_model="numpy")
+def _turned(n, boost):
+    return turned_straight(n, boost)
 
 
 def some_springs(law, rng, n=40):
@@ -108,6 +115,36 @@ def test_a_slow_dashpot_yields_what_the_force_gives_it(law):
 
     # no spring yields faster than L[s]/T, and the error is 2 % of that in a step that turns its direction by 74 degrees
     assert_allclose(after(1), after(40), atol=0.02 * 0.05 * H)
+
+
+def test_a_force_against_the_way_has_a_direction_however_straight_it_is():
+    """It turns to the way, or stays where rounding hides which way it turns; the reciprocal of nothing is not taken."""
+    way, aside = np.array([30.0, 40.0, 1e3, 1e6]), 10.0 ** np.arange(-170.0, 0.0, 0.5)
+    forces = (-1.0 + 1j * aside) / np.hypot(1.0, aside)
+    turned = np.array([_turned(n, complex(x, 0.0)) for x in way for n in forces.tolist()])
+    assert_allclose(np.abs(turned), 1.0, atol=1e-9)
+    assert (turned.real > 0).any()
+    assert (turned.real < 0).any()
+
+
+@pytest.mark.parametrize("T", [H / 20, H / 50])
+def test_slip_on_a_dashpot_that_begins_within_a_step_ends_where_it_does(T):
+    """A step is 64 of its parts: where stick ends a velocity of slip is nothing but for rounding, and so its sign."""
+    law, errors, n = law_of(T), [], 40
+    for seed in range(150):
+        rng = np.random.default_rng(seed)
+        s = rng.uniform(0.01, 2, (1, n))
+        e = rng.uniform(0.5, 1.0, n) * s * np.exp(2j * np.pi * rng.uniform(0, 1, n))
+        x_1, x_2 = complex(*rng.normal(0, 3, 2)), complex(*rng.normal(0, 30, 2))
+        z_1, z_2, ends = rng.uniform(-2, 3), rng.uniform(-5, 5), []
+        for parts in (1, 64):
+            t, state = H / parts, (s.copy(), e.copy())
+            for u in t * np.arange(parts):
+                path = Path(u * (z_1 + z_2 * u), z_1 + 2 * z_2 * u, z_2, x_1 + 2 * x_2 * u, x_2)
+                answer(law, *state, -s[0], np.full(n, 1 / n), path, t)
+            ends.append(state[1][0])
+        errors.append(np.abs(ends[0] - ends[1]) / s[0])
+    assert np.sqrt(np.mean(np.square(errors))) < 5e-4
 
 
 def test_the_end_of_a_leash_is_a_tractrix():
