@@ -26,7 +26,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 
 class Faces(NamedTuple):
-    """What a Face is, over a period of n_t steps."""
+    """A Face over a period of n_t steps."""
 
     coulomb: float
     a2: Array  #: (n_t, 3) a_0, a_1, a_2 of each step
@@ -51,13 +51,13 @@ def face_later(face, t):
 
 @_inline
 def strength(face, x2, t):
-    """What the strength adds to the limit of a spring at a time of the step; x2: its x², in the unit of a²."""
+    """Addition of the strength to the limit of a spring at a time of the step; x2: its x², in the unit of a²."""
     return np.sqrt(max(face.a_0 + t * (face.a_1 + t * face.a_2) - x2, 0.0))
 
 
 @_inline
 def strengths(face, x2, begun, t):
-    """The same over a time t, as c_0 + c_1 u + c_2 u²."""
+    """Addition of the strength over a time t, as c_0 + c_1 u + c_2 u²."""
     c_0, middle, end = strength(face, x2, begun), strength(face, x2, begun + 0.5 * t), strength(face, x2, begun + t)
     return c_0, (4.0 * middle - 3.0 * c_0 - end) / t, 2.0 * (c_0 + end - 2.0 * middle) / (t * t)
 
