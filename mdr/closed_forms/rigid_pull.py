@@ -9,7 +9,7 @@ and the COF is mu_0 (1 - sum of the mean lags / sum of the mean s). In contact s
 springs, so they differ only in the phase theta at which they touch. Three facts make the mean a single integral.
 
 1. A spring sticks at most once in a period. D = s' - v + p/T is positive in stick. The core, all springs that press as
-   D of theirs rises through zero, starts to stick there, at a phase that is again called theta. Springs that touch
+   their D rises through zero, starts to stick there, at a phase that is called theta again. Springs that touch
    later stick at once, from theta to b = theta + sigma, if D(theta) > 0, and never otherwise.
 2. The periodic stick is known. Q = exp(-(2 pi - sigma)/T) is the share of a lag that is left from b to the next stick:
 
@@ -34,7 +34,7 @@ What follows from (*):
   9/(4 pi) k_zc du_z/<F_N> (1 - v)² for an elastic contact, and 2 sqrt(2) T/(3 pi) k_zc du_z/<F_N> (1 - v)^(3/2) for a
   Kelvin one, whose lag outlives the stick by the time T; k_zc is that of the springs in contact at this instant;
 * near v = 0: mu/mu_0 -> min F_N/<F_N> + c v^q. Elastic q = 1 with
-  c = 2/pi du_z/<F_N> integral from 0 to pi of phi k_zc(u_z0 + du_z cos phi) d phi. Kelvin with a kept core q = 2/3
+  c = (2/pi) du_z/<F_N> integral from 0 to pi of phi k_zc(u_z0 + du_z cos phi) d phi. Kelvin with a kept core q = 2/3
   with c = ½ R^(1/3) (3 pi T)^(2/3) k_zc(u_z0 - R du_z) du_z/<F_N>, R = sqrt(1 + T²): at its least force
   the core slips for a time ~ v^(1/3), during which it gives back what it was pulled in the rest of the period.
 """
@@ -148,8 +148,8 @@ def near_critical(case: SlidingContact) -> Asymptote:
 
 @of_coulomb
 def small_velocity(case: SlidingContact) -> Asymptote:
-    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z). ValueError for a Kelvin
-    contact that is lost entirely.
+    """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z); ValueError for a Kelvin
+    contact that is lost entirely, whose term is not known.
 
     Examples
     --------
