@@ -29,7 +29,7 @@ from itertools import product
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.march.periodic.steady import BUDGET, Converged, Resolution, accuracy_of
+from mdr.march.periodic.steady import BUDGET, MarchEnd, Resolution, accuracy_of
 from mdr.march.result.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
 from mdr.march.result.run import SlidingRun, finish
 from mdr.march.result.slide import runs, slide
@@ -179,7 +179,7 @@ class _Search:
         self.ticker = Ticker("critical velocity from runs", parts="runs")
         self.few = self.steps = default_steps(case)
         self.n_springs = default_springs(case)
-        self.near: Converged | None = None  # the last run from full slip in which springs stuck
+        self.near: MarchEnd | None = None  # the last run from full slip in which springs stuck
         self.doubt = 0.0  # of the end of stick [m/s], by resolution
         self.scale = case.pace  # only a scale of velocity
 

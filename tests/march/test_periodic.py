@@ -42,9 +42,9 @@ BLOCKS = {
 def test_a_fixed_point_is_found_with_a_bound_on_its_distance(block):
     """Of a map that does not expand any is an answer, also one that motions turn around for ever."""
     found = fixed_point(*linear(block), POINT + RNG.normal(size=6))
-    assert np.linalg.norm(found.state - POINT) <= found.spread < 1e-6
+    assert np.linalg.norm(found.state.x - POINT) <= found.settling.spread < 1e-6
     # x - P(x) = (1 - P') (x - x*); the fast motions, a hundredth, may add to it
-    assert found.gain == pytest.approx(1 / np.linalg.svd(np.eye(2) - block)[1][-1], rel=0.2)
+    assert found.settling.gain == pytest.approx(1 / np.linalg.svd(np.eye(2) - block)[1][-1], rel=0.2)
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_a_slow_beat_that_stick_trims_is_not_waited_for(angle, seed):
     A, b = linear(turning(1.0, angle))
     edge = POINT[0] - 0.1
     found = fixed_point(A, b, POINT + np.random.default_rng(seed).normal(size=6), edge)
-    x = found.state
+    x = found.state.x
     image = A @ x + b
     image[0] -= 0.5 * max(image[0] - edge, 0.0)
     assert np.linalg.norm(image - x) < 1e-8
@@ -130,7 +130,7 @@ def test_a_failed_search_leaves_no_trace(monkeypatch):
 @pytest.mark.filterwarnings("error")
 def test_a_state_of_nothing_can_be_pushed_too():
     """At phase 0 every spring may be in flight and forget all it knew."""
-    assert fixed_point(0.1 * np.eye(6), np.zeros(6), np.zeros(6)).gain == pytest.approx(1 / 0.9)
+    assert fixed_point(0.1 * np.eye(6), np.zeros(6), np.zeros(6)).settling.gain == pytest.approx(1 / 0.9)
 
 
 @pytest.mark.parametrize("k_x", [1.0, 0.3, 1e-2, 1e-3, 1e-4, 1e-5])

@@ -11,7 +11,8 @@ import mdr
 from mdr.march.dynamics.energy import OF_MEMORY, does_not_close, energy_balance
 from mdr.march.dynamics.state import UNKNOWN
 from mdr.march.periodic.settling import MIN_PERIODS, assess, smooth_mean
-from mdr.march.periodic.steady import Resolution, looked_at, steady
+from mdr.march.periodic.steady import Resolution, steady
+from mdr.march.result.look import looked_at
 from mdr.spring.energies import FRICTION_LOSS
 
 TOLERANCE = 1e-6
@@ -148,13 +149,13 @@ def test_a_run_whose_energies_do_not_close_has_not_settled():
 
 def test_the_account_of_a_period_is_held_to_its_steps():
     case = contact("cone", 3.0, 0.0)
-    end = looked_at(steady(case, 0.4 * case.unit_velocity, Resolution(64, 256, "full_slip", lump=True)))
+    end, account, _ = looked_at(steady(case, 0.4 * case.unit_velocity, Resolution(64, 256, "full_slip", lump=True)))
 
     def missing(error):
-        return does_not_close(energy_balance(end.end.stepper, end.account), end.end.stepper, end.account, error)
+        return does_not_close(energy_balance(end.stepper, account), end.stepper, account, error)
 
     assert missing(0.0) == ""
-    end.account.seen.sums[FRICTION_LOSS] *= 0.9
+    account.seen.sums[FRICTION_LOSS] *= 0.9
     assert missing(0.0).startswith("the energies of a period do not close")
     assert missing(0.1) == ""  # within the error that is stated
 

@@ -18,7 +18,7 @@ from mdr.march.dynamics.dimensionless import ScaledContact, Way
 from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
-from mdr.spring.energies import LEAST_SLIP, N_SUMS, SHAKE_WORK, nodes_of
+from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, N_SUMS, SHAKE_WORK, STICK_IMPULSE, nodes_of
 from mdr.spring.times import tools_for
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import Ticker, time_is_over
@@ -48,6 +48,17 @@ class PeriodRecord:
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
     period: Periods  #: its COF and swing
     solved: bool  #: whether every step of it was solved for
+
+    @property
+    def sees_contact(self) -> bool:
+        """Whether any spring presses for longer than an instant between two steps."""
+        sums = self.seen.sums
+        return bool(sums[CONTACT_IMPULSE] > 0 and np.isfinite(sums[LEAST_SLIP]))
+
+    @property
+    def stick_share(self) -> float:
+        """Force-weighted share of contact time spent sticking."""
+        return float(self.seen.sums[STICK_IMPULSE] / self.seen.sums[CONTACT_IMPULSE])
 
 
 class Stepper:

@@ -16,16 +16,16 @@ search is kept within is wider.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, cast
 
 import numpy as np
 
 from mdr.march.dynamics.state import MarchState
 from mdr.march.dynamics.stepper import Stepper
-from mdr.march.periodic.search import FORGOTTEN, Orbit
+from mdr.march.periodic.orbit import Orbit
+from mdr.march.periodic.search import FORGOTTEN
 from mdr.march.periodic.settling import Settling
-from mdr.march.periodic.solver import Solver, iterate
 from mdr.tools.arrays import Array
+from mdr.tools.iterate import iterate
 
 TURNS = 60  #: of Newton's method; springs at slow pulls meet kinks in a dozen
 PUSH = 1e-6  #: displacement that tells the derivative, over the greatest compression at phase 0
@@ -38,18 +38,38 @@ WIDER = 0.1  #: of the greatest compression: how far outside of friction a step 
 
 
 def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
-    """The periodic state of every spring, from one of any other; None where it is not found. Raises OutOfTime."""
+    """The periodic state of every spring, from one of any other; None where it is not found."""
     springs = _Springs(stepper, start)
     x = springs.inside(_rows(start.e))
-    solvers: list[_Creep | _Newton] = [_Creep(springs)] if stepper.scaled.rheology.rho else []
-    for solver in (*solvers, _Newton(springs)):
-        at: _At = iterate(cast(Solver[Any], solver), solver.begin(x))
-        if not np.isfinite(at.off):
-            return None
-        if at.off <= springs.enough:
-            return springs.found(at.place, at.off)
-        x = at.x
-    return None
+    crept = _Crept(x, x)
+    if stepper.scaled.rheology.rho:
+        crept = iterate(springs.creep, springs.ended, crept, CREEPS)
+    at: _At = crept
+    if not springs.ended(at):
+        at = iterate(springs.newton, springs.ended, _Stepped(crept.x, crept.x, after=crept.x), TURNS)
+    return springs.found(at.place, at.off) if at.off <= springs.enough else None
+
+
+@dataclass(frozen=True, eq=False)
+class _At:
+    """Where the search is."""
+
+    x: Array  #: to go on from
+    place: Array  #: the place of which it is known how far it is off
+    off: float = 1e300  #: how far, as a force
+
+
+@dataclass(frozen=True, eq=False)
+class _Crept(_At):
+    last: float = 0.0  #: length of the last move
+
+
+@dataclass(frozen=True, eq=False)
+class _Stepped(_At):
+    change: Array | float = np.inf  #: (n,) length of the creep at the place
+    after: Array | float = 0.0  #: where the springs would creep from there
+    step: Array | float = 0.0  #: Newton's step from there
+    part: Array | float = 1.0  #: (n,) of the step, that was taken
 
 
 class _Springs:
@@ -64,13 +84,11 @@ class _Springs:
         self.farthest = float(limit.most.max()) or float(limit.greatest.max())  # at phase 0 all may be in flight
         self.most = limit.most + WIDER * self.farthest  # how far the vector of each spring may reach
         self.enough = BEFORE * stepper.tolerance * stepper.mean_limit
-        self.creep: Array = np.eye(
-            len(self.roots)
-        )  # what becomes of the changes of a period if the force goes on as it was
+        self.series: Array = np.eye(len(self.roots))  # what the change of a period comes to under the same force
         if modes is not None:
             left = np.exp(-2 * np.pi * modes.mu) / -np.expm1(-2 * np.pi * modes.mu)
             of_one = np.eye(1 + len(rheology.rho)) + modes.out @ (left[:, None] * modes.into)
-            self.creep = np.asarray(np.kron(np.eye(ways), of_one), dtype=float)
+            self.series = np.asarray(np.kron(np.eye(ways), of_one), dtype=float)
 
     def inside(self, x: Array) -> Array:
         """Brought to where friction lets extensions be, or a little further."""
@@ -85,12 +103,48 @@ class _Springs:
 
     def moves(self, image: Array, x: Array) -> tuple[Array, Array]:
         """Where a period that leads to this image would make them creep, and how far each (n,)."""
-        move = self.creep @ (image - x)
+        move = self.series @ (image - x)
         return move, _length(self.roots * move)
 
     def off(self, moved: Array) -> float:
         """Bound on the mean force that is missing where each spring is off by this vector."""
         return float(_length(self.roots * moved) @ self.scaled.springs.w)
+
+    def ended(self, at: _At) -> bool:
+        """Whether they are close enough, or nowhere."""
+        return not at.off > self.enough
+
+    def creep(self, at: _Crept) -> _Crept:
+        """Go to where the change of a period would make the springs creep."""
+        move, _ = self.moves(self.marched(at.x), at.x)
+        x, last = self.inside(at.x + move), self.off(move)
+        slow = last / max(at.last, 1e-300)  # what is to come is less than the last move
+        return _Crept(x, x, last / (1 - slow) if slow <= SHRINKS else max(last, 1e300), last)
+
+    def newton(self, at: _Stepped) -> _Stepped:
+        """A step of Newton's method on the map of a period, for each spring."""
+        x, part = at.x, np.ones(at.x.shape[1])
+        image = self.marched(x)
+        move, change = self.moves(image, x)
+        worse = ~(change <= at.change)
+        if worse.any():  # less of that step, and at last none: on to where it was marched to
+            part = np.where(worse, SHORTER * at.part, 1.0)
+            shorter = np.where(part >= SHORTEST, self.inside(at.place + part * at.step), at.after)
+            x = np.where(worse, shorter, x)
+            image = self.marched(x)
+            move, length = self.moves(image, x)
+            change = np.where(worse & (part < SHORTEST), at.change, length)
+            part = np.where(part < SHORTEST, 1.0, part)
+        turn = np.zeros((x.shape[1], len(x), len(x)))
+        for k in self.lasting:
+            push = np.zeros_like(x)
+            push[k] = np.where(x[k] > 0, -PUSH, PUSH) * self.farthest
+            turn[:, :, k] = ((self.marched(x + push) - image) / push[k]).T
+        left = (1 + FLAT) * np.eye(len(x)) - turn
+        step = np.asarray(np.linalg.solve(left, (image - x).T[:, :, None])[:, :, 0].T, dtype=float)
+        off = self.off(step)
+        step *= np.minimum(1.0, 2 * self.farthest / np.maximum(_length(step), 1e-300))
+        return _Stepped(self.inside(x + step), x, off, change, self.inside(x + move), step, part)
 
     def found(self, x: Array, off: float) -> Orbit | None:
         """The periodic state next to one that is off by so much; None where springs are late."""
@@ -107,88 +161,6 @@ class _Springs:
         parts = self.like.e.shape[0]
         e = x if len(x) == parts else x[:parts] + 1j * x[parts:]
         return MarchState.of(e, self.like.s, self.like.body)
-
-
-@dataclass(frozen=True, eq=False)
-class _At:
-    """Where a solver is."""
-
-    x: Array  #: to go on from
-    place: Array  #: the place of which it is known how far it is off
-    off: float = 1e300  #: how far, as a force
-
-
-@dataclass(frozen=True, eq=False)
-class _Crept(_At):
-    last: float = 0.0  #: length of the last move
-
-
-class _Creep:
-    """Springs go to where the change of a period would make them creep."""
-
-    most = CREEPS
-
-    def __init__(self, springs: _Springs) -> None:
-        self.springs = springs
-
-    def begin(self, x: Array) -> _Crept:
-        return _Crept(x, x)
-
-    def ended(self, at: _Crept) -> bool:
-        return not at.off > self.springs.enough
-
-    def step(self, at: _Crept) -> _Crept:
-        move, _ = self.springs.moves(self.springs.marched(at.x), at.x)
-        x, last = self.springs.inside(at.x + move), self.springs.off(move)
-        slow = last / max(at.last, 1e-300)  # what is to come is less than the last move
-        return _Crept(x, x, last / (1 - slow) if slow <= SHRINKS else max(last, 1e300), last)
-
-
-@dataclass(frozen=True, eq=False)
-class _Stepped(_At):
-    change: Array | float = np.inf  #: (n,) length of the creep at the place
-    after: Array | float = 0.0  #: where the springs would creep from there
-    step: Array | float = 0.0  #: Newton's step from there
-    part: Array | float = 1.0  #: (n,) of the step, that was taken
-
-
-class _Newton:
-    """Newton's method on the map of a period, for each spring."""
-
-    most = TURNS
-
-    def __init__(self, springs: _Springs) -> None:
-        self.springs = springs
-
-    def begin(self, x: Array) -> _Stepped:
-        return _Stepped(x, x, after=x)
-
-    def ended(self, at: _Stepped) -> bool:
-        return not at.off > self.springs.enough
-
-    def step(self, at: _Stepped) -> _Stepped:
-        springs, x, part = self.springs, at.x, np.ones(at.x.shape[1])
-        image = springs.marched(x)
-        move, change = springs.moves(image, x)
-        worse = ~(change <= at.change)
-        if worse.any():  # less of that step, and at last none: on to where it was marched to
-            part = np.where(worse, SHORTER * at.part, 1.0)
-            shorter = np.where(part >= SHORTEST, springs.inside(at.place + part * at.step), at.after)
-            x = np.where(worse, shorter, x)
-            image = springs.marched(x)
-            move, length = springs.moves(image, x)
-            change = np.where(worse & (part < SHORTEST), at.change, length)
-            part = np.where(part < SHORTEST, 1.0, part)
-        turn = np.zeros((x.shape[1], len(x), len(x)))
-        for k in springs.lasting:
-            push = np.zeros_like(x)
-            push[k] = np.where(x[k] > 0, -PUSH, PUSH) * springs.farthest
-            turn[:, :, k] = ((springs.marched(x + push) - image) / push[k]).T
-        left = (1 + FLAT) * np.eye(len(x)) - turn
-        step = np.asarray(np.linalg.solve(left, (image - x).T[:, :, None])[:, :, 0].T, dtype=float)
-        off = springs.off(step)
-        step *= np.minimum(1.0, 2 * springs.farthest / np.maximum(_length(step), 1e-300))
-        return _Stepped(springs.inside(x + step), x, off, change, springs.inside(x + move), step, part)
 
 
 def _length(x: Array) -> Array:

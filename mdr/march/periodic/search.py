@@ -4,7 +4,6 @@ is told of the contact. States are measured by the energy of springs, system spr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -12,10 +11,10 @@ import numpy as np
 
 from mdr.march.dynamics.body import RATE, Y
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.state import UNKNOWN, MarchState, on_other_springs
+from mdr.march.dynamics.state import MarchState, on_other_springs
 from mdr.march.dynamics.stepper import AT_ONCE, Stepper
-from mdr.march.periodic.settling import LATE, Settling
-from mdr.march.periodic.shooting import CREEP, SOLVED_TOLERANCE, Found, Options, Shooting, SlowMotions
+from mdr.march.periodic.orbit import Orbit, SlowMotions
+from mdr.march.periodic.shooting import CREEP, Options, Shooting
 from mdr.tools.arrays import Array
 
 FORGOTTEN = 0.3  #: omega times the relaxation time of an arm that keeps exp(-2 pi/0.3) = 8e-10 over a period
@@ -24,18 +23,6 @@ SAME_GAIN = 0.25  #: gain times h², up to which it is known at another resoluti
 MEMORY, MOST = 8, 80  #: periods that Anderson's method combines, and after which it gives up
 A_TIME = (3, 20)  #: how many more of both for each of the slow times
 UNCOMBINED = 3  #: periods marched before the first combination, while springs find their modes
-
-
-@dataclass(frozen=True, eq=False)
-class Orbit:
-    """A periodic state that was found."""
-
-    state: MarchState
-    settling: Settling
-    least_slip: float = (
-        0.0  #: least slip velocity along the pull, in the period before it, of springs that slip all the time
-    )
-    motions: SlowMotions | None = None  #: the slow ones about it, where they are known
 
 
 def search(
@@ -56,12 +43,10 @@ def search(
     for start in starts:
         shooting = Shooting(stepper, start, how, plain)
         shooting.gain, shooting.motions = gain, motions
-        found = shooting.shoot()
-        motions = shooting.motions
-        if found is not None:
-            orbit = _orbit(found, start, shooting.motions)
-            if found.is_close or how.slow or orbit.settling.settled:  # waiting for slow motions takes far longer
-                return orbit
+        orbit, motions = shooting.shoot(), shooting.motions
+        # waiting for slow motions takes far longer
+        if orbit is not None and (shooting.is_close or how.slow or orbit.settling.settled):
+            return orbit
     stepper.n_periods = n_before
     return None
 
@@ -88,17 +73,6 @@ def _slow_times(scaled: ScaledContact) -> tuple[float, ...]:
     if scaled.body.pull_time > SLOW_PULL:
         slow += (2 * scaled.body.pull_time / CREEP,)  # a material may be slower than is seen; this is known
     return slow
-
-
-def _orbit(found: Found, like: MarchState, motions: SlowMotions | None) -> Orbit:
-    """The periodic state that a search has come to."""
-    if found.spread <= SOLVED_TOLERANCE and not found.late:
-        settling = Settling(found.cof, found.spread, True, "periodic", found.gain, across=found.cof_y)
-    else:
-        why = LATE if found.late else "a periodic state was found, but it may be too far from the exact one"
-        spread = UNKNOWN if found.late else min(found.spread, UNKNOWN)
-        settling = Settling(found.cof, spread, False, "unsettled", found.gain, why, across=found.cof_y)
-    return Orbit(MarchState(found.state, like.s.copy()), settling, found.least_slip, motions)
 
 
 def search_from_full_slip(stepper: Stepper) -> Orbit | None:

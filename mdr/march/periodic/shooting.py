@@ -29,7 +29,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.state import MarchState
+from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import Stepper
 from mdr.march.periodic.anderson import (
     BEST,
@@ -45,8 +45,10 @@ from mdr.march.periodic.anderson import (
     Search,
     seek,
 )
-from mdr.march.periodic.solver import OutOfTime
+from mdr.march.periodic.orbit import Orbit, SlowMotions
+from mdr.march.periodic.settling import LATE, Settling
 from mdr.tools.arrays import EXACT, Array
+from mdr.tools.iterate import iterate
 from mdr.tools.progress import time_is_over
 
 FULL = EXACT  #: what is missing in the COF in full slip
@@ -67,13 +69,8 @@ SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes 
 LOST = 5  #: corrections in a row of which no share was a gain, after which it ends
 
 
-class SlowMotions(NamedTuple):
-    """What is known of the slow motions about a periodic state: k displacements that outlive a few periods, in all
-    parts (k, n_x) of the state, and what they are a period later.
-    """
-
-    before: Array
-    after: Array
+class OutOfTime(Exception):
+    """The time limit of the caller is over in the middle of a step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,18 +94,20 @@ class Options:
         return pushes
 
 
-@dataclass(frozen=True, eq=False)
-class Found:
-    """A periodic state that was found."""
+class _Aim(NamedTuple):
+    """What a search goes for next."""
 
-    state: Array  #: (n_x,) at the end of the period that is told
-    cof: float  #: over mu_0, in that period
-    cof_y: float  #: the same across the pull
-    least_slip: float  #: in that period, the way of the pull, of springs that slip all the time
-    gain: float  #: bound on the distance from the exact one, over the change in a period
-    spread: float  #: bound on the error of the COF over mu_0
-    late: bool  #: whether springs are late
-    is_close: bool  #: whether it is as close as is asked for
+    x: Array  #: (n_x,) where it begins
+    close: float  #: change over a period, over the size of the state
+    over: bool = False  #: whether there is nothing left to go for
+
+
+class _Correction(NamedTuple):
+    """What a correction knows of those before it."""
+
+    ways: Array  #: (k,) signs of its pushes
+    push: float = PUSH  #: their length, over the size of the state
+    lost: int = 0  #: corrections in a row that were no gain
 
 
 class Shooting:
@@ -125,44 +124,49 @@ class Shooting:
         #: measured depends on how close a state has come
         self.gain: float | None = None
         self.motions: SlowMotions | None = None  #: the slow ones about it, where they are known
-        self.found: Found | None = None
+        self.found: Orbit | None = None
+        self.is_close = False  #: whether what is found is as close to the periodic state as is asked for
 
-    def shoot(self) -> Found | None:
+    def shoot(self) -> Orbit | None:
         """The periodic state, close enough or the best that there is."""
+        first = self.stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
         with suppress(OutOfTime):
-            self._come_closer()
+            iterate(self._come_closer, lambda aim: aim.over, _Aim(self.start, first))
         return self.found
 
-    def _come_closer(self) -> None:
-        """Search for ever smaller changes, until what is found is close enough, or comes no closer."""
-        stepper, search, x = self.stepper, self.search, self.start
-        close = stepper.tolerance / (SHARE * (self.gain or max((1.0, *self.how.slow))))
-        while True:
-            self._begin(x, close)
-            if not self._sought():
-                return
-            best = search.states[BEST].copy()
-            last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
-            cofs = stepper.cof_of(self.trace)
-            if last and (slip := self._slip_for_good(cofs[0])):
-                self.found = Found(best, *cofs, slip, np.inf, 0.0, late=False, is_close=True)
-                return
-            if search.changes[LEAST] > search.changes[ENOUGH]:
-                last = False
-                self._correct()
-            near = search.changes[LEAST] <= max(search.changes[ENOUGH], CLOSE)
-            gain = self.gain
-            if near and gain is None:
-                gain = self._measured()
-            if not near or gain is None:
-                if close <= CLOSE:
-                    return
-                x, close = best, CLOSE
-                continue
-            self.found = found = self._told(cofs if last else None, close, gain)
-            if found.is_close or close <= CLOSEST or time_is_over():
-                return
-            x, close = search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * found.spread + 1e-300))
+    def _come_closer(self, aim: _Aim) -> _Aim:
+        """Search for so small a change; the next aim, until what is found is close enough, or comes no closer."""
+        stepper, search, close = self.stepper, self.search, aim.close
+        self._begin(aim.x, close)
+        iterate(self._seek, lambda search: bool(search.counts[ENDED]), search)
+        if not (search.counts[ENDED] and np.isfinite(search.changes[LEAST])):
+            return aim._replace(over=True)
+        best = search.states[BEST].copy()
+        last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
+        cofs = stepper.cof_of(self.trace)
+        if last and (slip := self._slip_for_good(cofs[0])):
+            self._told(best, cofs, slip, np.inf, 0.0)
+            return aim._replace(over=True)
+        if search.changes[LEAST] > search.changes[ENOUGH]:
+            last = False
+            iterate(self._correct, self._corrected, _Correction(np.ones(len(self.how.places))), TURNS)
+        near = search.changes[LEAST] <= max(search.changes[ENOUGH], CLOSE)
+        gain = self.gain
+        if near and gain is None:
+            gain = self._measured()
+        if not near or gain is None:
+            return _Aim(best, CLOSE, over=close <= CLOSE)
+        spread = self._judged(cofs if last else None, close, gain)
+        over = self.is_close or close <= CLOSEST
+        return _Aim(search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * spread + 1e-300)), over)
+
+    def _seek(self, search: Search) -> Search:
+        """Some more periods of Anderson's method, in place."""
+        stepper, how, before = self.stepper, self.how, int(search.counts[PERIODS])
+        most = stepper.scaled.limit.most
+        seek(stepper.kernel, stepper.block, stepper.v, self.s, most, how.roots, how.at_once, self.flat, *search)
+        stepper.count(int(search.counts[PERIODS]) - before)
+        return search
 
     def _begin(self, x: Array, close: float) -> None:
         """Seek from a state on; what is known of slow motions is combined from the first period on."""
@@ -173,19 +177,6 @@ class Shooting:
             before, after = (of[:k] for of in self.motions)
             search.past[IMAGES, :k], search.past[MOVES, :k] = after, self.how.roots * (after - before)
             search.counts[KEPT] = k
-
-    def _sought(self) -> bool:
-        """Whether Anderson's method has come to its end in time, with a state."""
-        stepper, search = self.stepper, self.search
-        most, how = stepper.scaled.limit.most, self.how
-        marched = stepper.kernel, stepper.block, stepper.v, self.s, most, how.roots, how.at_once, self.flat
-        while not search.counts[ENDED]:
-            if time_is_over():
-                return False
-            before = int(search.counts[PERIODS])
-            seek(*marched, *search)
-            stepper.count(int(search.counts[PERIODS]) - before)
-        return bool(np.isfinite(search.changes[LEAST]))
 
     def _period(self, x: Array) -> Array:
         """The state a period later, which begins within the cone of friction. Raises OutOfTime."""
@@ -210,8 +201,8 @@ class Shooting:
         drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
         return least if AGES * drift < least < np.inf else 0.0
 
-    def _told(self, cofs: tuple[float, float] | None, close: float, gain: float) -> Found:
-        """The COF of the periodic state, and how far it may be from that of the exact one.
+    def _judged(self, cofs: tuple[float, float] | None, close: float, gain: float) -> float:
+        """Take the best state for the periodic one. Returned is how far its COF may be from that of the exact one.
 
         cofs: of the last period that was marched, if that is its own.
         """
@@ -226,10 +217,24 @@ class Shooting:
         spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_limit
         ends = MarchState(begin, self.s), MarchState(state, self.s)
         late = stepper.v > 0 and stepper.late(*ends, 1) > stepper.tolerance
+        self._told(state, cofs, stepper.least_slip(trace, cofs[0]), gain, spread, late)
         settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
         nearly_full = FULL < 1 - cofs[0] < SOLVED_TOLERANCE  # it has to be told from nothing
-        is_close = settled and (close <= CLOSE or not nearly_full)
-        return Found(state, *cofs, stepper.least_slip(trace, cofs[0]), gain, spread, late, bool(is_close))
+        self.is_close = bool(settled and (close <= CLOSE or not nearly_full))
+        return spread
+
+    def _told(
+        self, x: Array, cofs: tuple[float, float], least_slip: float, gain: float, spread: float, late: bool = False
+    ) -> None:
+        """Take a state for the one that is found. spread: bound on the error of its COF over mu_0."""
+        cof, across = cofs
+        if spread <= SOLVED_TOLERANCE and not late:
+            settling = Settling(cof, spread, True, "periodic", gain, across=across)
+        else:
+            why = LATE if late else "a periodic state was found, but it may be too far from the exact one"
+            spread = UNKNOWN if late else min(spread, UNKNOWN)
+            settling = Settling(cof, spread, False, "unsettled", gain, why, across=across)
+        self.found = Orbit(MarchState(x, self.s.copy()), settling, least_slip, self.motions)
 
     def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
         """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
@@ -277,32 +282,33 @@ class Shooting:
         creep = -1 / float(np.expm1(-1 / (CREEP * slow)))  # few arms are told apart in so short a time
         return creep if self.how.stable else max(along, creep)
 
-    def _correct(self) -> None:
-        """Newton-Picard corrections of the best state along the pushed motions, for one of less change over a period.
+    def _corrected(self, at: _Correction) -> bool:
+        """Whether no further correction is asked for, or would be a gain."""
+        changes = self.search.changes
+        return not changes[LEAST] > changes[ENOUGH] or at.lost >= LOST
+
+    def _correct(self, at: _Correction) -> _Correction:
+        """A Newton-Picard correction of the best state along the pushed motions, for one of less change over a period.
 
         The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go
         the same way and as far, to see the slope on both sides of it.
         """
-        search, roots, push, lost = self.search, self.how.roots, PUSH, 0
-        ways = np.ones(len(self.how.places))
-        for _ in range(TURNS):
-            if not search.changes[LEAST] > search.changes[ENOUGH] or lost == LOST or time_is_over():
-                break
-            (begin, image), (before, after), _ = self._pushed(ways, push)
-            size, move = self._length(image) + 1e-300, roots * (image - begin)
-            change, turn = float(np.linalg.norm(move)) / size, (roots * (after - before)).T
-            search.states[BEST], search.changes[LEAST] = image, change
-            if not np.isfinite(turn).all():
-                break
-            share = -np.linalg.lstsq(turn, move, rcond=1e-12)[0]
-            step, ways = share @ after, ways * np.where(share < 0, -1, 1)
-            part, lost, push = 1.0, lost + 1, 0.1 * push  # if no part is a gain, what these pushes saw was not of here
-            while part >= SHORTEST:
-                tried = image + part * step
-                reached = self._period(tried)
-                less = self._length(reached - tried) / size
-                if less < (1 - 0.1 * part) * change:
-                    push = float(np.clip(part * self._length(step) / size, 1e-9, PUSH if part == 1 else FARTHEST))
-                    search.states[BEST], search.changes[LEAST], lost = reached, less, 0
-                    break
-                part *= 0.5
+        search, roots = self.search, self.how.roots
+        (begin, image), (before, after), _ = self._pushed(at.ways, at.push)
+        size, move = self._length(image) + 1e-300, roots * (image - begin)
+        change, turn = float(np.linalg.norm(move)) / size, (roots * (after - before)).T
+        search.states[BEST], search.changes[LEAST] = image, change
+        if not np.isfinite(turn).all():
+            return at._replace(lost=LOST)
+        share = -np.linalg.lstsq(turn, move, rcond=1e-12)[0]
+        step, ways, part = share @ after, at.ways * np.where(share < 0, -1, 1), 1.0
+        while part >= SHORTEST:
+            tried = image + part * step
+            reached = self._period(tried)
+            less = self._length(reached - tried) / size
+            if less < (1 - 0.1 * part) * change:
+                search.states[BEST], search.changes[LEAST] = reached, less
+                push = np.clip(part * self._length(step) / size, 1e-9, PUSH if part == 1 else FARTHEST)
+                return _Correction(ways, float(push))
+            part *= 0.5
+        return _Correction(ways, 0.1 * at.push, at.lost + 1)  # no part is a gain: what the pushes saw was not of here

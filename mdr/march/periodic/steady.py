@@ -1,14 +1,11 @@
-"""One march of a contact: brought to its steady state (`steady`), and looked at closely (`looked_at`).
+"""One march of a contact, brought to its steady state.
 
 The periodic state is searched for from full slip (search.py). Where none is found, and from rest, the march goes on
-until the COF settles (waiting.py). Elastic springs under a rigid pull need two periods. The last periods are then
-stepped again with detailed output: modes of contact, forces, energies. A COF that contradicts a theorem (theorems.py)
-is not called settled.
+until the COF settles (waiting.py). Elastic springs under a rigid pull need two periods.
 """
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -16,22 +13,14 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.dimensionless import ScaledContact
-from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, Stepper
+from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.each_alone import search_alone
-from mdr.march.periodic.search import (
-    Orbit,
-    at_other_resolution,
-    gain_at_other_resolution,
-    search,
-    search_from_full_slip,
-)
+from mdr.march.periodic.orbit import Orbit
+from mdr.march.periodic.search import at_other_resolution, gain_at_other_resolution, search, search_from_full_slip
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.shooting import FULL
-from mdr.march.periodic.solver import OutOfTime
-from mdr.march.periodic.theorems import outside
-from mdr.march.periodic.waiting import NO_STEP, Waiting, way_from_rest
+from mdr.march.periodic.waiting import Waiting, way_from_rest
 from mdr.normal.springs import SpringArray, springs_of
-from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, STICK_IMPULSE
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
@@ -73,7 +62,7 @@ class Resolution(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Converged:
+class MarchEnd:
     """The end of a march, settled or not, before the detailed look at its last periods; in scaled form."""
 
     case: SlidingContact
@@ -132,7 +121,7 @@ class Converged:
         return self.depth_error + unseen + (0.0 if self.slips_fully else self.scaled.slow.error)
 
     @property
-    def to_begin_from(self) -> Converged | None:
+    def to_begin_from(self) -> MarchEnd | None:
         """Itself, if other runs may begin in its periodic state; None in full slip, where they begin anyway."""
         return self if self.settling.solved and not self.slips_fully else None
 
@@ -148,70 +137,13 @@ class Converged:
         """
         return self.orbit.least_slip / self.scaled.drive.pace(self.stepper.v) if self.slips_fully else 0.0
 
-    def unsettled(self, why: str) -> Converged:
-        """The same, not settled."""
-        settling = replace(self.settling, settled=False, kind="unsettled", why=why)
+    def unsettled(self, why: str, contradicts: bool = False) -> MarchEnd:
+        """The same, not settled. contradicts: whether its COF contradicts a theorem."""
+        return self.judged(replace(self.settling, settled=False, kind="unsettled", why=why, contradicts=contradicts))
+
+    def judged(self, settling: Settling) -> MarchEnd:
+        """The same, with another judgement of whether it has settled."""
         return replace(self, orbit=replace(self.orbit, settling=settling))
-
-
-@dataclass(frozen=True, eq=False)
-class Observed:
-    """A finished march: its end, and what a close look at its last periods saw; in scaled form."""
-
-    end: Converged
-    settling: Settling
-    account: PeriodRecord  # the period that modes and energies are taken from
-    record: tuple[PeriodRecord, ...]  # all observed periods
-
-    @property
-    def n_periods(self) -> int:
-        """Periods marched."""
-        return self.end.n_periods + len(self.record)
-
-    @property
-    def cof(self) -> float:
-        """COF over mu_0."""
-        return self.settling.mean
-
-    def contradicted(self, why: str) -> Observed:
-        """The same, not settled, as its COF contradicts a theorem."""
-        settling = replace(self.settling, settled=False, kind="unsettled", why=why, contradicts=True)
-        return replace(self, settling=settling)
-
-    @property
-    def may_rest_elsewhere(self) -> bool:
-        """Whether some spring can stick for good with its foot at more than one place, so that the end depends on the
-        start.
-
-        At v_0 = 0, with x the displacement of its top, -c the place of its foot and z - gap its compression, the force
-        L[x] + c must stay within L[z] - gap. More than one c does so if 2 gap < min L[z - x] + min L[z + x].
-        """
-        scaled = self.end.scaled
-        if self.end.v_0 != 0:
-            return False
-        way, z = self.account.y[1:] + self.end.stepper.motion.x[1:], scaled.drive.z[1:]
-        bear = np.fft.rfft([z, way.real, way.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
-        press, along, across = np.fft.irfft(bear, scaled.drive.steps)
-        gap = float(scaled.springs.gap.min())
-        if scaled.faces:  # of the spring in the middle
-            share, strength = scaled.faces.coulomb, np.sqrt(np.roll(scaled.faces.a2[:, 0], -1))
-            gap, press = share * gap, share * press + strength
-        if scaled.ways == 2:  # a foot so at rest that the force goes about zero
-            away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
-            return float((press - away).min()) > gap
-        return float((press - along).min() + (press + along).min()) > 2 * gap
-
-    @property
-    def sees_contact(self) -> bool:
-        """Whether any spring presses for longer than an instant between two steps."""
-        sums = self.account.seen.sums
-        return bool(sums[CONTACT_IMPULSE] > 0 and np.isfinite(sums[LEAST_SLIP]))
-
-    @property
-    def stick_share(self) -> float:
-        """Force-weighted share of contact time spent sticking."""
-        sums = self.account.seen.sums
-        return float(sums[STICK_IMPULSE] / sums[CONTACT_IMPULSE])
 
 
 def steady(
@@ -219,9 +151,9 @@ def steady(
     v_0: float,
     resolution: Resolution,
     n_periods: int | None = None,
-    near: Converged | None = None,
+    near: MarchEnd | None = None,
     most: int | None = None,
-) -> Converged:
+) -> MarchEnd:
     """March until the COF settles, or for exactly n_periods: the end of the march.
 
     v_0: pulling velocity [m/s]. near: the end of a march of the case at other resolution or velocity, in whose periodic
@@ -233,10 +165,7 @@ def steady(
     total = None if n_periods is None else n_periods + max(1, resolution.record)  # with those looked at
     stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), total)
     from_full_slip, waiting = resolution.start == "full_slip", None
-    try:
-        orbit = _searched(stepper, resolution, near) if n_periods is None else None
-    except OutOfTime:
-        orbit = None
+    orbit = _searched(stepper, resolution, near) if n_periods is None else None
     if orbit is None:
         start = stepper.full_slip() if from_full_slip else stepper.rest()
         waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
@@ -247,30 +176,10 @@ def steady(
     if not np.isfinite(orbit.settling.mean):
         raise out_of_range(v_0)
     n_marched, awaits = stepper.n_periods, n_periods is not None
-    return Converged(case, v_0, resolution, springs, stepper, orbit, n_marched, waiting, awaits)
+    return MarchEnd(case, v_0, resolution, springs, stepper, orbit, n_marched, waiting, awaits)
 
 
-def looked_at(end: Converged) -> Observed:
-    """A close look at further periods of a march, one or as many as are to be kept."""
-    stepper, settling, state, n = end.stepper, end.settling, end.orbit.state, end.resolution.record
-    records: list[PeriodRecord] = []
-    while len(records) < max(1, n):
-        state, record = stepper.observe(state, keep=n > 0)
-        records.append(record)
-    if not all(np.isfinite(record.period.cof).all() for record in records):
-        raise out_of_range(end.v_0)
-    if end.awaits and end.waited is not None:
-        waited = copy(end.waited)
-        for record in records:
-            waited.append(record.period)
-        settling = waited.assess()
-    account = records[-1] if end.awaits else records[0]  # the same period however many are kept
-    march = Observed(end, settling, account, tuple(records))
-    why = _contradiction(march) if settling.settled else ""
-    return march.contradicted(why) if why else march
-
-
-def alike_to(end: Converged) -> float:
+def alike_to(end: MarchEnd) -> float:
     """Gap [amplitudes] up to which springs that keep contact do the same but for their gap, as a periodic state shows;
     infinite where all do, or each for itself.
 
@@ -311,7 +220,7 @@ def check(case: SlidingContact, v_0: float) -> None:
         )
 
 
-def _searched(stepper: Stepper, resolution: Resolution, near: Converged | None) -> Orbit | None:
+def _searched(stepper: Stepper, resolution: Resolution, near: MarchEnd | None) -> Orbit | None:
     """The periodic state; None where it is not found. Springs under a rigid pull are not coupled: each is solved for by
     itself.
     """
@@ -348,17 +257,6 @@ def _after_a_period(stepper: Stepper) -> Orbit:
     state = stepper.period(stepper.period(stepper.full_slip()))
     cof, _ = stepper.cof_of(stepper.last)
     return Orbit(state, Settling(cof, 0.0, True, "periodic", gain=1.0), stepper.least_slip(stepper.last, cof))
-
-
-def _contradiction(march: Observed) -> str:
-    """Why the COF that a march has settled at cannot be one; nothing if it can."""
-    stepper, seen, settling, error = march.end.stepper, march.account, march.settling, march.end.error
-    if not seen.solved:
-        return NO_STEP
-    least = -1.0 if stepper.scaled.drive.is_shaken else float(stepper.scaled.limit.end.min()) / stepper.mean_limit
-    # between two nodes it may be lower by h²/8 times its bend, and means over nodes miss as much
-    why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * stepper.scaled.drive.h**2)
-    return why or ("" if error is None else outside(settling.mean, -1.0, error + settling.spread + TOLERANCE))
 
 
 def out_of_range(v_0: float) -> ValueError:

@@ -16,8 +16,10 @@ from mdr.march.dynamics.body import Y
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import TOLERANCE, Periods, Stepper, joined
-from mdr.march.periodic.search import Orbit, search
+from mdr.march.periodic.orbit import Orbit
+from mdr.march.periodic.search import search
 from mdr.march.periodic.settling import LATE, MIN_PERIODS, Settling, assess, smooth_mean
+from mdr.tools.iterate import iterate
 from mdr.tools.progress import time_is_over
 
 BEATS = 2.0  #: of an undamped body that a settled run has seen
@@ -37,6 +39,7 @@ class Waiting:
     def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
         self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
         self.periods, self.late, self.least_slip = Periods(*np.empty((3, 0))), 0.0, 0.0
+        self.most, self.solve_at, self.over = 0, 0, False
 
     @property
     def n(self) -> int:
@@ -73,22 +76,29 @@ class Waiting:
             self.advance(self.first_look)
             return self._ended(replace(self.assess(), settled=False, kind="unsettled"))
         self.advance(max(self.first_look, int(self.on_the_way)))
-        solve_at = self.n
-        while not (settling := self.assess()).settled:
-            if not self.scaled.body.rigid and self.n >= solve_at:
-                solve_at = SOLVE_AGAIN * self.n
-                if (orbit := search(self.stepper, (self.state,))) is not None:
-                    return orbit
-            if time_is_over():
-                return self._ended(replace(settling, why=f"the time limit is over after {self.n} periods"))
-            if not self.stepper.solved:
-                return self._ended(replace(settling, why=NO_STEP))
-            if self._is_late and self.scaled.drive.is_shaken and FEW * self._way > most:
-                return self._ended(replace(settling, why=self._why_late))
-            if not self._may_settle_by(most):
-                break
+        self.most, self.solve_at = most, self.n
+        at = iterate(self._wait_on, lambda at: at.settling.settled or self.over, self._ended(self.assess()))
+        if time_is_over() and not (at.settling.settled or self.over):
+            return self._ended(replace(at.settling, why=f"the time limit is over after {self.n} periods"))
+        return at
+
+    def _wait_on(self, at: Orbit) -> Orbit:
+        """What half as many periods again lead to, or a periodic state; the same, over, where more do not help."""
+        if not self.scaled.body.rigid and self.n >= self.solve_at:
+            self.solve_at = SOLVE_AGAIN * self.n
+            if (orbit := search(self.stepper, (self.state,))) is not None:
+                self.over = True
+                return orbit
+        why = ""
+        if not self.stepper.solved:
+            why = NO_STEP
+        elif self._is_late and self.scaled.drive.is_shaken and FEW * self._way > self.most:
+            why = self._why_late
+        elif self._may_settle_by(self.most):
             self.advance(max(4, self.n // 2))
-        return self._ended(settling)
+            return self._ended(self.assess())
+        self.over = True
+        return self._ended(replace(at.settling, why=why or at.settling.why))
 
     def _ended(self, settling: Settling) -> Orbit:
         return Orbit(self.state, settling, self.least_slip)

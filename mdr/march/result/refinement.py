@@ -28,7 +28,7 @@ from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.steady import (
     BUDGET,
     MOST_BESIDE,
-    Converged,
+    MarchEnd,
     Resolution,
     accuracy_of,
     alike_to,
@@ -98,14 +98,14 @@ def _jolts(case: SlidingContact) -> bool:
 class _Runs:
     """Runs of one case at one velocity, each kept, and begun in a state that was found before."""
 
-    def __init__(self, case: SlidingContact, v_0: float, near: Converged | None) -> None:
+    def __init__(self, case: SlidingContact, v_0: float, near: MarchEnd | None) -> None:
         self.case, self.v_0, self.near = case, v_0, near
         self.fast = fast_ratio(case)
         self.searched = not case.pull.is_rigid or case.rheology.remembers or case.moves_across
-        self.ends: dict[Resolution, Converged] = {}
+        self.ends: dict[Resolution, MarchEnd] = {}
         self.ticker = Ticker("slide", parts="runs")
 
-    def main(self, resolution: Resolution, most: int | None) -> Converged:
+    def main(self, resolution: Resolution, most: int | None) -> MarchEnd:
         """The end of a run that goes on until it settles, or for at most so many periods.
 
         Where the periodic state has to be searched for, it begins in that of the companion of half the steps and
@@ -119,15 +119,15 @@ class _Runs:
                 self.ends[half] = self.near = first
         return self._at(resolution, None, most)
 
-    def beside(self, main: Converged, resolution: Resolution) -> Converged:
+    def beside(self, main: MarchEnd, resolution: Resolution) -> MarchEnd:
         """The end of a companion: solved for by itself if the main run was, else of as many periods."""
         return self._at(resolution, None if main.settling.solved else main.n_periods, MOST_BESIDE)
 
-    def half(self, main: Converged) -> Converged:
+    def half(self, main: MarchEnd) -> MarchEnd:
         """The companion with half of the steps and springs."""
         return self.beside(main, companions(main.resolution).half)
 
-    def _at(self, resolution: Resolution, n_periods: int | None, most: int | None) -> Converged:
+    def _at(self, resolution: Resolution, n_periods: int | None, most: int | None) -> MarchEnd:
         if resolution not in self.ends:
             end = steady(self.case, self.v_0, resolution, n_periods, self.near, most)
             self.ends[resolution] = end
@@ -180,7 +180,7 @@ def check_size(n_springs: int, steps: int, record: int) -> None:
         )
 
 
-def within(case: SlidingContact, v_0: float, resolution: Resolution, near: Converged | None = None) -> Converged:
+def within(case: SlidingContact, v_0: float, resolution: Resolution, near: MarchEnd | None = None) -> MarchEnd:
     """The end of a run with its companions; springs and steps that are free are refined until the error is within
     resolution.accuracy. near: the end of a run at a velocity close by.
     """
@@ -191,9 +191,9 @@ def within(case: SlidingContact, v_0: float, resolution: Resolution, near: Conve
     return replace(end, resolution=end.resolution._replace(record=record))
 
 
-def _refined(runs: _Runs, resolution: Resolution) -> Converged:
+def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
     """The best run that is settled, or the first."""
-    best: Converged | None = None
+    best: MarchEnd | None = None
     while True:
         rigid = runs.case.pull.is_rigid
         main = runs.main(resolution, None if best is None or rigid else MOST_BESIDE)
@@ -226,7 +226,7 @@ def _serves_a_cut(n_springs: int, case: SlidingContact) -> bool:
     return max(3 * n_springs // 8, 16) >= 2 * (len(case.indenter.kinks) + 3)
 
 
-def _finer(main: Converged, missed: Missed) -> Resolution:
+def _finer(main: MarchEnd, missed: Missed) -> Resolution:
     """Twice the steps or springs, or both, of which too much is missed; the same where that cannot be afforded."""
     free, share = main.resolution.free, main.resolution.accuracy / 2
     of_steps, of_springs = missed.steps.apart, max(missed.springs.apart, main.load_error)
@@ -266,7 +266,7 @@ class Missed(NamedTuple):
         return bound(self.steps, self.springs, others=self.by_chance)
 
 
-def _missed_by(runs: _Runs, main: Converged) -> Missed:
+def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
     """What the companions of a run tell."""
     beside = companions(main.resolution)
     steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
@@ -281,7 +281,7 @@ def _missed_by(runs: _Runs, main: Converged) -> Missed:
     return Missed(by_steps, by_springs, tuple(by_chance))
 
 
-def _of_unresolved(runs: _Runs, main: Converged) -> float:
+def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
     """What steps miss, over mu_0, that their companions miss as well: the oscillation of a mass on the contact, where
     they do not resolve but damp it, and how a body without mass is thrown as springs touch. It is found beside steps
     that resolve the oscillation, as those that are chosen do, as far as that can be afforded; or beside four times as
@@ -297,7 +297,7 @@ def _of_unresolved(runs: _Runs, main: Converged) -> float:
     return missed + UNRESOLVED * abs(main.cof - resolved.cof)
 
 
-def _clear_of_stick(runs: _Runs, main: Converged) -> Converged | None:
+def _clear_of_stick(runs: _Runs, main: MarchEnd) -> MarchEnd | None:
     """A run that slips, where no finer step would stick either: F_x is mu_0 F_z without error.
 
     It and its companion of half the size must slip throughout, by more than a tenth of v_0 and ten times what doubling
@@ -315,7 +315,7 @@ def _clear_of_stick(runs: _Runs, main: Converged) -> Converged | None:
     return replace(main, error=0.0)
 
 
-def _apart(main: Converged, companion: Converged) -> float:
+def _apart(main: MarchEnd, companion: MarchEnd) -> float:
     """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
     apart = float(np.hypot(main.cof - companion.cof, main.settling.across - companion.settling.across))
     if apart <= FULL:

@@ -18,8 +18,9 @@ from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_bala
 from mdr.march.dynamics.state import UNKNOWN
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
 from mdr.march.periodic.settling import LATE, MIN_PERIODS
-from mdr.march.periodic.steady import Converged, Observed, looked_at, too_coarse
+from mdr.march.periodic.steady import MarchEnd, too_coarse
 from mdr.march.periodic.waiting import NO_STEP
+from mdr.march.result.look import looked_at, may_rest_elsewhere
 from mdr.normal.normal_force import full_cof
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
@@ -196,27 +197,26 @@ def _turned(values: Any) -> Any:
     return None if values is None else 0.0 - values  # no -0.0
 
 
-def finish(end: Converged) -> SlidingRun:
+def finish(end: MarchEnd) -> SlidingRun:
     """The run of a march, after a close look at its last periods, in SI."""
-    march, error, why = looked_at(end), end.error or 0.0, ""
-    if end.error is None:
-        why = "no companion run: cof_error holds settling only"
-    balance = energy_balance(end.stepper, march.account)
-    open_account = does_not_close(balance, end.stepper, march.account, error + march.settling.spread)
-    if march.settling.settled and open_account:
-        march = march.contradicted(open_account)
-    case, scaled, sums, settling = end.case, end.scaled, march.account.seen.sums, march.settling
+    end, account, record = looked_at(end)
+    error, why = end.error or 0.0, "" if end.error is not None else "no companion run: cof_error holds settling only"
+    balance = energy_balance(end.stepper, account)
+    open_account = does_not_close(balance, end.stepper, account, error + end.settling.spread)
+    if end.settling.settled and open_account:
+        end = end.unsettled(open_account, contradicts=True)
+    case, scaled, settling = end.case, end.scaled, end.settling
     full = full_cof(case)
     force_z = scaled.units.stiffness_z * scaled.units.length_z
-    if not march.sees_contact:
+    if not account.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
     error += end.hidden_error
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
-    sticks = march.stick_share
+    sticks = account.stick_share
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
-    if settling.settled and march.may_rest_elsewhere:
+    if settling.settled and may_rest_elsewhere(end, account):
         kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
     return SlidingRun(
         cof=full * cof,
@@ -224,9 +224,9 @@ def finish(end: Converged) -> SlidingRun:
         cof_error=full * (min(error + own, UNKNOWN) if settling.settled else UNKNOWN),
         settled=settling.settled,
         kind=kind,
-        why=why if settling.settled else _why_not(march),
+        why=why if settling.settled else _why_not(end),
         stick_share=sticks,
-        least_slip=float(sums[LEAST_SLIP]) * scaled.units.speed,
+        least_slip=float(account.seen.sums[LEAST_SLIP]) * scaled.units.speed,
         mean_F_x=full * cof * mean_F_z,
         mean_F_y=full * across * mean_F_z,
         mean_F_z=mean_F_z,
@@ -237,13 +237,13 @@ def finish(end: Converged) -> SlidingRun:
         omega=scaled.units.omega,
         n_springs=end.resolution.n_springs,
         steps_per_period=scaled.drive.steps,
-        n_periods=march.n_periods,
-        **(_recorded(march) if end.resolution.record else {}),
+        n_periods=end.n_periods,
+        **(_recorded(end, record) if end.resolution.record else {}),
     )
 
 
-def _why_not(march: Observed) -> str:
-    settling, n = march.settling, march.n_periods
+def _why_not(end: MarchEnd) -> str:
+    settling, n = end.settling, end.n_periods
     if settling.why == NO_STEP:
         return f"{NO_STEP}: raise steps_per_period, or hold the indenter rigidly"
     if settling.contradicts:
@@ -254,25 +254,23 @@ def _why_not(march: Observed) -> str:
         return f"{settling.why}: raise {'limit_s' if 'time limit' in settling.why else 'n_periods or c_x'}"
     if n < MIN_PERIODS:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
-    if march.end.resolution.start == "rest" and n < march.end.on_the_way:
-        return (
-            f"a start from rest takes {march.end.on_the_way:.3g} periods to stretch the springs: start from full slip"
-        )
+    if end.resolution.start == "rest" and n < end.on_the_way:
+        return f"a start from rest takes {end.on_the_way:.3g} periods to stretch the springs: start from full slip"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
-    if march.end.scaled.body.M and march.end.scaled.body.C == 0:
+    if end.scaled.body.M and end.scaled.body.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
-    from_rest = march.end.resolution.start != "full_slip"
+    from_rest = end.resolution.start != "full_slip"
     return f"{change}: raise n_periods" + (" or start from full slip" if from_rest else "")
 
 
-def _recorded(march: Observed) -> dict[str, Any]:
+def _recorded(end: MarchEnd, records: tuple[PeriodRecord, ...]) -> dict[str, Any]:
     """The last periods in SI, springs that stand alike each for itself."""
-    scaled, springs = march.end.scaled, march.end.springs
+    scaled, springs = end.scaled, end.springs
     F_x, F_z, F_y, y, e, s, f, f_z, mode = (
-        np.concatenate(parts) for parts in zip(*(_arrays(record) for record in march.record), strict=True)
+        np.concatenate(parts) for parts in zip(*(_arrays(record) for record in records), strict=True)
     )
     n_steps = F_x.size
-    t = (march.n_periods - march.end.resolution.record) * march.end.case.period + np.arange(
+    t = (end.n_periods - end.resolution.record) * end.case.period + np.arange(
         1, n_steps + 1
     ) * scaled.drive.h / scaled.units.omega
     if scaled.slow.rho:  # they have relaxed about the mean, from which the stiffer springs were counted
@@ -297,8 +295,8 @@ def _recorded(march: Observed) -> dict[str, Any]:
         across["strength"] = strength * share * scaled.units.stiffness_x * scaled.units.length_x
     return across | {
         "t": t,
-        "u_x": march.end.v_0 * t + (y.real + scaled.drive.along.x[phase]) * scaled.units.length_x,
-        "u_z": march.end.case.cycle.u_z0 + scaled.units.length_z * scaled.drive.z[phase],
+        "u_x": end.v_0 * t + (y.real + scaled.drive.along.x[phase]) * scaled.units.length_x,
+        "u_z": end.case.cycle.u_z0 + scaled.units.length_z * scaled.drive.z[phase],
         "F_x": F_x * scaled.units.stiffness_x * scaled.units.length_x,
         "F_z": F_z * scaled.units.stiffness_z * scaled.units.length_z,
         "x": springs.x,

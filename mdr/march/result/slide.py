@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mdr.case.contact import SlidingContact
-from mdr.march.periodic.steady import BUDGET, Converged, Resolution, check, steady
+from mdr.march.periodic.steady import BUDGET, MarchEnd, Resolution, check, steady
 from mdr.march.result.refinement import resolution_of, within
 from mdr.march.result.run import SlidingRun, finish
 from mdr.normal.resolved import resolved
@@ -143,8 +143,8 @@ def _velocity(case: SlidingContact, v_0: Any) -> float:
 
 
 def runs(
-    case: SlidingContact, velocities: Iterable[float], resolution: Resolution, near: Converged | None = None
-) -> Iterator[Converged]:
+    case: SlidingContact, velocities: Iterable[float], resolution: Resolution, near: MarchEnd | None = None
+) -> Iterator[MarchEnd]:
     """The ends of runs at these velocities, each begun in the state of the one before: what `slide` answers, sooner.
 
     near: the end of a run in which the first begins. Without companions (resolution.bounded) their error is that of

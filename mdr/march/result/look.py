@@ -1,0 +1,72 @@
+"""A close look at the last periods of a march, which are stepped again with modes of contact, forces and energies.
+
+A COF that contradicts a theorem (theorems.py) is not called settled.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import replace
+
+import numpy as np
+
+from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
+from mdr.march.periodic.steady import MarchEnd, out_of_range
+from mdr.march.periodic.theorems import outside
+from mdr.march.periodic.waiting import NO_STEP
+
+
+def looked_at(end: MarchEnd) -> tuple[MarchEnd, PeriodRecord, tuple[PeriodRecord, ...]]:
+    """The end of a march after further periods, one or as many as are to be kept; the one of them that modes and
+    energies are taken from, and all.
+    """
+    stepper, state, n = end.stepper, end.orbit.state, end.resolution.record
+    records: list[PeriodRecord] = []
+    while len(records) < max(1, n):
+        state, record = stepper.observe(state, keep=n > 0)
+        records.append(record)
+    if not all(np.isfinite(record.period.cof).all() for record in records):
+        raise out_of_range(end.v_0)
+    end = replace(end, n_periods=end.n_periods + len(records))
+    if end.awaits and end.waited is not None:
+        waited = copy(end.waited)
+        for record in records:
+            waited.append(record.period)
+        end = end.judged(waited.assess())
+    account = records[-1] if end.awaits else records[0]  # the same period however many are kept
+    why = _contradiction(end, account) if end.settling.settled else ""
+    return end.unsettled(why, contradicts=True) if why else end, account, tuple(records)
+
+
+def _contradiction(end: MarchEnd, account: PeriodRecord) -> str:
+    """Why the COF that a march has settled at cannot be one; nothing if it can."""
+    scaled, settling = end.scaled, end.settling
+    if not account.solved:
+        return NO_STEP
+    least = -1.0 if scaled.drive.is_shaken else float(scaled.limit.end.min()) / scaled.limit.mean
+    # between two nodes it may be lower by h²/8 times its bend, and means over nodes miss as much
+    why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * scaled.drive.h**2)
+    return why or ("" if end.error is None else outside(settling.mean, -1.0, end.error + settling.spread + TOLERANCE))
+
+
+def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:
+    """Whether some spring can stick for good with its foot at more than one place, so that the end depends on the
+    start.
+
+    At v_0 = 0, with x the displacement of its top, -c the place of its foot and z - gap its compression, the force
+    L[x] + c must stay within L[z] - gap. More than one c does so if 2 gap < min L[z - x] + min L[z + x].
+    """
+    scaled = end.scaled
+    if end.v_0 != 0:
+        return False
+    top, z = account.y[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:]
+    forces = np.fft.rfft([z, top.real, top.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
+    press, along, across = np.fft.irfft(forces, scaled.drive.steps)
+    gap = float(scaled.springs.gap.min())
+    if scaled.faces:  # of the spring in the middle
+        share, strength = scaled.faces.coulomb, np.sqrt(np.roll(scaled.faces.a2[:, 0], -1))
+        gap, press = share * gap, share * press + strength
+    if scaled.ways == 2:  # a foot so at rest that the force goes about zero
+        away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
+        return float((press - away).min()) > gap
+    return float((press - along).min() + (press + along).min()) > 2 * gap
