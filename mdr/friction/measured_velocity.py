@@ -34,6 +34,7 @@ from mdr.march.result.refinement import MOST_SPRINGS, MOST_STEPS, default_spring
 from mdr.march.result.run import SlidingRun, finish
 from mdr.march.result.slide import runs, slide
 from mdr.normal.resolved import resolved
+from mdr.tools.companions import Companion, bound
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
 
@@ -296,8 +297,8 @@ class _Search:
         """Double steps and springs until the end of stick moves by less than the margin, or up to their limits.
 
         Returns the last run without stick. A first touch falls anywhere within a step, so that its error is irregular.
-        So 1, 1.5 and 2 times the steps and springs are compared. The spread of the three is the doubt of the coarsest,
-        which is then used.
+        So 1, 1.5 and 2 times the steps and springs are compared. The farthest two of the three tell the doubt of the
+        coarsest, which is then used.
         """
         while True:
             steps, n_springs, ends = self.steps, self.n_springs, [free.v_0 - free.least_slip]
@@ -308,7 +309,8 @@ class _Search:
                     further = self._first_free_run()
                     return None if further is None else self._resolve(further)
                 ends.append(free.v_0 - free.least_slip)
-            self.doubt = max(ends) - min(ends)
+            by_chance = (Companion(abs(ends[i] - ends[1])) for i in (0, 2))
+            self.doubt = bound(Companion(abs(ends[2] - ends[0])), others=tuple(by_chance))
             enough = self.margin * max(free.v_0 - free.least_slip, LEAST * self.scale)
             if self.doubt <= enough or 2 * self.steps > MOST_STEPS or 2 * self.n_springs > MOST_SPRINGS:
                 self.steps, self.n_springs = steps, n_springs
