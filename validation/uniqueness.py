@@ -46,7 +46,7 @@ from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.search import search_from_full_slip
 from mdr.march.periodic.settling import Settling
-from mdr.march.periodic.waiting import Waiting, way_from_rest
+from mdr.march.periodic.waiting import Waiting, pre_sliding
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
 from validation.cases import SHAPES, contact
@@ -96,7 +96,7 @@ class System:
         scaled = ScaledContact.of(case, mdr.SpringArray.of(case, SPRINGS), STEPS, lump=False)
         stepper = Stepper(scaled, self.v_0 / scaled.units.speed)
         if start == "rest":
-            return Waiting(stepper, stepper.rest(), way_from_rest(scaled, stepper.v))
+            return Waiting(stepper, stepper.rest(), pre_sliding(scaled, stepper.v))
         march = Waiting(stepper, stepper.full_slip())
         if start == "random":
             scatter(march, rng)

@@ -266,11 +266,11 @@ def _impulses(case: SlidingContact, u_z: Array, dt: float, velocities: Array, n_
 
 def _followed(row: SpringRow, depth: Array, dt: float, rates: Array, leads: Array) -> Iterator[Array]:
     """Impulses of a scaled depth for each rate of the scaled way, after its lead; full slip at first."""
-    rows = 1 if row.law.arms is None else 1 + row.law.arms.rho.size
+    n_parts = 1 if row.law.arms is None else 1 + row.law.arms.rho.size
     for rate, lead in zip(rates, leads, strict=True):
         t = dt * np.arange(-lead, depth.size + 1)
         z, x = depth[np.arange(-lead, depth.size + 1) % depth.size], rate * t
-        s, out = np.zeros((rows, row.gap.size)), np.zeros((t.size, 6))
+        s, out = np.zeros((n_parts, row.gap.size)), np.zeros((t.size, 6))
         s[0] = np.maximum(z[0] - row.gap, 0)
         follow(s, s.copy(), t, x, z, np.empty(0), 1, row, out, 0, t.size - 1)
         yield out[lead + 1 :, [3, 5]].sum(axis=0) * np.array([row.force_x, row.force_z])

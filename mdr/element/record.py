@@ -278,11 +278,11 @@ class _Followed(NamedTuple):
 
 def _followed(motion: _Motion, row: SpringRow, parts: int, ticker: Ticker) -> _Followed:
     """The record followed by a row of springs, each interval in so many parts."""
-    t, n, rows = motion.t, row.gap.size, 1 if row.law.arms is None else 1 + row.law.arms.rho.size
+    t, n, n_parts = motion.t, row.gap.size, 1 if row.law.arms is None else 1 + row.law.arms.rho.size
     x = (motion.x if motion.y is None else motion.x + 1j * motion.y) / row.length_x
     depth = motion.depth / row.length_z
     load = np.empty(0) if motion.load is None else motion.load / row.force_z
-    s, e = np.zeros((rows, n)), np.zeros((rows, n), x.dtype)
+    s, e = np.zeros((n_parts, n)), np.zeros((n_parts, n), x.dtype)
     s[0] = np.maximum(depth[0] - row.gap, 0)
     out = np.zeros((t.size, 6))
     out[0, 2] = row.w @ s[0]

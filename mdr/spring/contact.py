@@ -190,7 +190,7 @@ def limit_of(face, springs, i, R, h):
 
 
 @_inline
-def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     """Springs over a step; s and e are updated, an Answer comes out.
 
     rub: function of the friction over a stretch of contact, rub_line or rub_disc; or None, as e, for the normal part
@@ -290,10 +290,10 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, exces
                 end += w[i] * f
                 sticking += w[i] if mode == STICK else 0.0
                 back += w[i] if mode == SLIP_BACK else 0.0
-                if excess is not None:
+                if lumped is not None:
                     for j in range(s.shape[0]):
                         left = e[j, i] - s[j, i] if mode == STICK else -2.0 * s[j, i] if mode == SLIP_BACK else 0.0
-                        excess[j, 0] += w[i] * left
+                        lumped[j, 0] += w[i] * left
         if each is not None:
             each.pressed_for[i], each.f[i], each.f_z[i] = pressed_for / h if h > 0.0 else 0.0, f, R
         if look is not None:

@@ -35,7 +35,7 @@ MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the sl
 
 
 class Parabola(NamedTuple):
-    """The way p t + q t² of the top, or of the end of a spring."""
+    """The displacement p t + q t² of the top, or of the end of a spring."""
 
     p: complex
     q: complex
@@ -87,7 +87,7 @@ def memory(e, i, arms):
 
 @_inline
 def between(b):
-    """Where the line through the two ends of a bracket is zero."""
+    """Zero of the line through the two ends of a bracket."""
     return (b.low * b.f_high - b.high * b.f_low) / (b.f_high - b.f_low)
 
 
@@ -140,7 +140,7 @@ def until_outside(f, R, t, tol):
 
 @_inline
 def until_slip(f, R, t, tol):
-    """When the force f of a spring that sticks leaves the disc R, both cubics; t if it does not."""
+    """Time at which the force f of a spring that sticks leaves the disc R, both cubics; t if it does not."""
     low, high = until_outside(f, R, t, tol)
     if high > t:
         return t
@@ -175,8 +175,8 @@ def outside_exactly(e, i, top, R, u, T, arms, tools):
 
 @_inline
 def until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools):
-    """When spring i on arms slips, of which the cubic f over the time t leaves the disc after `until`; before that if
-    the cubic is wrong and it does not: arms that relax within t are no cubic.
+    """Time at which spring i on arms slips, of which the cubic f over the time t leaves the disc after `until`; before
+    that if the cubic is wrong and it does not: arms that relax within t are no cubic.
     """
     until = max(until, SOON * t)
     out, low, high, f_low, f_high = outside_exactly(e, i, top, R, until, T, arms, tools), 0.0, until, -0.0, 0.0
@@ -281,12 +281,12 @@ def is_slow(t, T, arms):
 
 @_inline
 def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
-    """Slip over a time, and the way on which it takes the end of the spring: a parabola with the true rates at both
+    """Slip over a time, and the path on which it takes the end of the spring: a parabola with the true rates at both
     ends, shifted so that the force is; on a slow dashpot so that what it yields is. The memory of arms and their slip
     are brought in line with each other.
     """
     rate_0, rate_1 = top.p - start.vel * start.n, top.p + 2.0 * t * top.q
-    v, way = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Parabola(rate_0, 0.0j)
+    v, moved = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Parabola(rate_0, 0.0j)
     of, per, back, returns, others = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), t, 0.0, 1, 0.0j
     last, f_0, f_1 = 0.0j, max(R.a, 0.0) * start.n, max(at(R, t), 0.0)
     if arms is not None:
@@ -295,7 +295,7 @@ def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
     for _ in range(returns):
         if arms is not None:
             # by the parabola of both ends and the mean, as R goes: then what relaxes with the disc does not slip
-            _, last, mean = remembered(e, i, way.p, rate_0, way.q, t, k, False, tools, arms)
+            _, last, mean = remembered(e, i, moved.p, rate_0, moved.q, t, k, False, tools, arms)
             last, mean = last - start.a, mean - start.a
             b, c = (6.0 * mean - 2.0 * last) * (1.0 / t), (6.0 * mean - 3.0 * last) * (1.0 / (t * t))
             v = Cubic(start.v, 2.0 * G * top.q - b, c, 0.0j)
@@ -316,8 +316,8 @@ def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
                 mean = (of.area - borne - bend) * (1.0 / (t * T + 0.5 * t * per))
         else:
             mean = ((f_1 + T * of.vel) * of.n - T * rate_1 - e[0, i] - others) * (1.0 / per)
-        way = Parabola(mean - t * q, q)
-    return of, way
+        moved = Parabola(mean - t * q, q)
+    return of, moved
 
 
 @_inline
@@ -327,9 +327,9 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
     if T > 0.0 and start.ahead > 0.0:  # from stick on it begins at rest, or so: what it is an instant later
         first = max(first, ROUNDING * h * start.ahead / T)
     lasts, b = True, Bracket(0.0, t, first, 0.0, 0)
-    of, way = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Parabola(0.0j, 0.0j)
+    of, moved = Slip(start.n, start.vel, 0.0j, 0.0j, start.vel), Parabola(0.0j, 0.0j)
     for iteration in range(MOST_HALVINGS):
-        of, way = slip_over(e, i, top, start, R, t, k, look is not None, G, T, arms, tools)
+        of, moved = slip_over(e, i, top, start, R, t, k, look is not None, G, T, arms, tools)
         if iteration == 0:
             if forced or of.vel >= 0.0:
                 break
@@ -351,16 +351,16 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
         return Stretch(0.0, False, 0.0j, 0.0, 0.0j, 0.0j)
     vel, R_0, R_m, R_1 = max(of.vel, 0.0) if lasts else 0.0, max(R.a, 0.0), max(at(R, 0.5 * t), 0.0), max(at(R, t), 0.0)
     if look is not None:
-        lost = lost_on_parabola(e, i, way.p, way.q, t, h, look.nodes, T, modes, arms)
+        lost = lost_on_parabola(e, i, moved.p, moved.q, t, h, look.nodes, T, modes, arms)
         look.sums[SHEAR_VISCOUS] += w * lost
         of_slip = R_0 * start.vel + 4.0 * R_m * max(of.l_m, 0.0) + R_1 * vel
         look.sums[FRICTION_LOSS] += w * t / 6.0 * of_slip
         look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], start.vel, vel)
     end = (R_1 + T * vel) * of.n - T * (top.p + 2.0 * t * top.q)
     if arms is not None:
-        others, _, _ = remembered(e, i, way.p, top.p - start.vel * start.n, way.q, t, k, True, tools, arms)
+        others, _, _ = remembered(e, i, moved.p, top.p - start.vel * start.n, moved.q, t, k, True, tools, arms)
         end -= others
-    e[0, i] = e[0, i] + t * (way.p + t * way.q) if is_slow(t, T, arms) else end
+    e[0, i] = e[0, i] + t * (moved.p + t * moved.q) if is_slow(t, T, arms) else end
     return Stretch(t, lasts, of.n, vel, of.area, of.moment)
 
 

@@ -1,4 +1,4 @@
-"""The slip of a spring whose friction is a vector: which way it turns, and how fast it slips.
+"""The slip of a spring whose friction is a vector: in which direction it turns, and how fast it slips.
 
 With the trial force g = L[e] + T (x' - e') of a dashpot that would stick, x' the velocity of the top,
 
@@ -9,11 +9,11 @@ with the direction n of slip and force, the slip velocity vel >= 0, the disc R =
 G = 1 + sum rho_j. This is Coulomb's law and L, nothing else; it is the clipped trial force of a Kelvin spring, and for
 T = 0 the end of an elastic spring that is dragged on a leash of length R, a tractrix.
 
-On a straight way the turn of n is known, however far it turns and however R changes: half the angle between n and the
-way has a tangent that falls by exp(-way/leash). Any other way is taken as two straight ones, from two Gauss nodes, that
-together are of fourth order (a commutator-free Magnus method, Blanes & Moan 2006). The area of the force follows from
-its values and rates at both ends, or from Simpson's rule where the way is longer than the leash. Vectors are complex
-numbers, and nothing knows of the axes.
+On a straight path the turn of n is known, however far it turns and however R changes: half the angle between n and the
+path has a tangent that falls by exp(-path/leash). Any other path is taken as two straight ones, from two Gauss nodes,
+that together are of fourth order (a commutator-free Magnus method, Blanes & Moan 2006). The area of the force follows
+from its values and rates at both ends, or from Simpson's rule where the path is longer than the leash. Vectors are
+complex numbers, and nothing knows of the axes.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -30,10 +30,10 @@ from mdr.tools.jit import inner
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST_IN_PLANE, **LENT)
 
 GAUSS = 0.5 / np.sqrt(3.0)  #: of a stretch, by which nodes of Gauss's rule of two lie beside its middle
-EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight ways, of order four together
-TINY = 1e-100  #: of a leash, and of a velocity; its square, and a way over it, are numbers too
-SHORT = 1.0  #: square of a way over the leash that counts as short
-EVEN = 2.0  #: times the least leash that the greatest may be, for two nodes to tell how far a way turns a spring
+EARLY, LATE = 0.25 + 1 / np.sqrt(12.0), 0.25 - 1 / np.sqrt(12.0)  #: of two straight paths, of order four together
+TINY = 1e-100  #: of a leash, and of a velocity; its square, and a path over it, are numbers too
+SHORT = 1.0  #: square of a path over the leash that counts as short
+EVEN = 2.0  #: times the least leash that the greatest may be, for two nodes to tell how far a path turns a spring
 NO_PHI = (1.0, 1.0, 0.5, 0.0, 0.0)  #: in the place of phi where nothing is viscous
 
 
@@ -81,7 +81,7 @@ def times(n, cos, sin):
 
 @_inline
 def turned_straight(n, boost):
-    """The direction n after a straight way, of this vector over the leash: exact."""
+    """The direction n after a straight path, of this vector over the leash: exact."""
     root = 0.5 * size_of(boost)
     half = scaled(0.5 * np.tanh(root) / max(root, TINY), boost)
     x, y = 1.0 + along(half, n), cross(n, half)
@@ -91,14 +91,14 @@ def turned_straight(n, boost):
 
 @_inline
 def parts(boost):
-    """tanh(x)/x of a short way, 2 x long, by its continued fraction: numerator and denominator."""
+    """tanh(x)/x of a short path, 2 x long, by its continued fraction: numerator and denominator."""
     q = 0.25 * (boost.real * boost.real + boost.imag * boost.imag)
     return 945.0 + q * (105.0 + q), 945.0 + q * (420.0 + q * 15.0)
 
 
 @_inline
 def turned_twice(n, a, b):
-    """The direction n after two short straight ways; the same, with one division."""
+    """The direction n after two short straight paths; the same, with one division."""
     (of_a, per_a), (of_b, per_b) = parts(a), parts(b)
     a, b = scaled(0.5 * of_a, a), scaled(0.5 * of_b, b)
     both = scaled(per_b, a) + scaled(per_a, b)
@@ -109,7 +109,7 @@ def turned_twice(n, a, b):
 
 @_inline
 def turned(n, v_1, v_2, rho_1, rho_2, t, short, sure):
-    """The direction n after a time t, under these ways a time and on these leashes at the two nodes of Gauss's rule.
+    """The direction n after a time t, under these velocities and on these leashes at the two nodes of Gauss's rule.
 
     short: at the ends of the time; sure: at the nodes too, where a leash may have come to nothing.
     """
@@ -202,7 +202,7 @@ def yielded(x, f_0, f_1, area, moment, t, T, phi):
 
 @_inline
 def is_short(v, rho, t):
-    """True for a way that is short beside the leash."""
+    """True for a path that is short beside the leash."""
     return along(v, v) * (t * t) < SHORT * (rho * rho)
 
 

@@ -64,7 +64,8 @@ def strengths(face, x2, begun, t):
 
 @_inline
 def raise_to_limit(s, i, z, c, t, coulomb, T, arms):
-    """Turn the compression s[:, i], which goes on by z_1 u + z_2 u² for a time t, into q. Answers its way (q_1, q_2).
+    """Turn the compression s[:, i], which goes on by z_1 u + z_2 u² for a time t, into q. Answers (q_1, q_2), of its
+    displacement q_1 u + q_2 u².
 
     An arm that relaxes in so long a time that it hardly does in this one begins without stretch, as a spring beside the
     long-time one; what it relaxes is met to second order. Any other one goes along with r.

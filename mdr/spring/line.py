@@ -31,7 +31,7 @@ BEGINS = -1  #: the mode is still to be found
 def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
     """Velocity of the foot over the plane: zero in stick, positive in slip, negative in slip back.
 
-    share: time from the start of the step, over h. z_1, x_1: rates of the parabolas then. The true way is a cubic: its
+    share: time from the start of the step, over h. z_1, x_1: rates of the parabolas then. The true path is a cubic: its
     rates differ from theirs by rate_miss at the start and the end of the step, in between by
     rate_miss (1 - 6 share (1 - share)), so that both are at the same places at both ends.
     """
@@ -104,8 +104,8 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tool
                 lost = lost_on_parabola(e, i, x_1, x_2, u, h, look.nodes, T, modes, arms)
                 look.sums[SHEAR_VISCOUS] += w * lost
             else:
-                ways = (z_1, z_2), (x_1, x_2)
-                of_slipping(look.sums, w, sign, s, e, i, *ways, u, h, look.nodes, T, modes, arms, tools.room.work)
+                rates = (z_1, z_2), (x_1, x_2)
+                of_slipping(look.sums, w, sign, s, e, i, *rates, u, h, look.nodes, T, modes, arms, tools.room.work)
         # the state after that time
         A, B = hold(s, i, z_1, z_2, u, k, T, tools, arms)
         pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B

@@ -1,4 +1,4 @@
-"""What a spring does that is held on a parabola, or left alone, by the law of its material (law.py): its state and its
+"""A spring that is held on a parabola, or left alone, by the law of its material (law.py): its state and its
 force over a time, and when a function of them comes to zero.
 
 A state x[:, i] is a compression or an extension and its arms: numbers, or vectors of the plane.
@@ -194,7 +194,7 @@ def zero(t, tol, a, b, c, p, q, m, n_arms, n_modes, modes, arms, tools):
 
 @_inline
 def until_held(f, x, s, e, i, of_s, of_e, p, q, t, tol, T, modes, arms, tools):
-    """When L of of_s s + of_e e, which is x, held on p t + q t², falls below zero."""
+    """Time at which L of of_s s + of_e e, which is x, held on p t + q t², falls below zero."""
     if arms is None:
         return zero_of_parabola(f, t, tol, x + T * p, p + 2.0 * T * q, q)
     J = arms.rho.size
@@ -205,7 +205,9 @@ def until_held(f, x, s, e, i, of_s, of_e, p, q, t, tol, T, modes, arms, tools):
 
 @_inline
 def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
-    """When a + b t + c t² and x that is left alone, or its rate, falls below zero; with arms, of tools.room.modes."""
+    """Time at which a + b t + c t² and x that is left alone, or its rate, falls below zero; with arms, of
+    tools.room.modes.
+    """
     if modes is None:
         return zero_of_parabola(f, t, tol, a, b, c)
     if arms is not None:

@@ -34,7 +34,7 @@ class Face(NamedTuple):
 
 
 class Path(NamedTuple):
-    """Motion of the top in a step: its depth z_0 + z_1 t + z_2 t², its way x_1 t + x_2 t² in the plane."""
+    """Motion of the top in a step: its depth z_0 + z_1 t + z_2 t², its displacement x_1 t + x_2 t² in the plane."""
 
     z_0: float
     z_1: float

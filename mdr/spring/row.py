@@ -3,7 +3,7 @@ scaled so that Coulomb's law has no coefficient. Without friction it is `press` 
 and a face, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
 
 springs: Springs. s, e (1 + J, n), updated: row 0 is compression and extension, row j the stretch of arm j. zd, xd:
-rates of the top at the end of the step. tools: of the step and of so many springs (times.py). excess, along a line:
+rates of the top at the end of the step. tools: of the step and of so many springs (times.py). lumped, along a line:
 None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the end, and of -2 w s of those that slip
 back, for `as_they_are`. each: None or Each. look: None or Look. Out comes an Answer.
 """
@@ -32,15 +32,15 @@ _LENT: Any = {"forceinline": True, "error_model": "numpy", "fastmath": FAST, **L
 _call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
 
 
-def row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     """The step; a compiled function calls it."""
     lean = arms is None and look is None and path.face is None
     of = _row(np.iscomplexobj(e), lean, lean and each is None)
-    return of(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    return of(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
 
 
 @overload(row, inline="never", jit_options=_LENT)
-def _(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def _(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     lean = all(isinstance(one, NoneType) for one in (arms, look, path.types[Path._fields.index("face")]))
     return _row(isinstance(e.dtype, Complex), lean, lean and isinstance(each, NoneType))
 
@@ -52,27 +52,27 @@ def _row(in_plane, lean_in_plane, lean):
     return _on_line_lean if lean else _on_line
 
 
-def _on_line(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    if excess is not None:
-        excess[:] = 0.0
-    return one_row(rub_line, None, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
+def _on_line(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+    if lumped is not None:
+        lumped[:] = 0.0
+    return one_row(rub_line, None, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
 
 
-def _on_line_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
-    if excess is not None:
-        excess[:] = 0.0
+def _on_line_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+    if lumped is not None:
+        lumped[:] = 0.0
     gap, w, made = springs.gap, springs.w, tools.room.whole
     require_room(made, gap)
-    of = whole_on_line(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, excess, made)
-    rest = one_row(rub_line, made, s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    of = whole_on_line(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, lumped, made)
+    rest = one_row(rub_line, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
     return both(of, rest)
 
 
-def _in_plane(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def _in_plane(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     return one_row(rub_disc, None, s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
 
 
-def _in_plane_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def _in_plane_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     gap, w, made = springs.gap, springs.w, tools.room.whole
     require_room(made, gap)
     of = whole_in_plane(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, each, made)
@@ -102,19 +102,19 @@ def both(a, b):
 
 
 @_call
-def as_they_are(path, sticking, back, T, arms, tools, excess, zd, xd):
+def as_they_are(path, sticking, back, T, arms, tools, lumped, zd, xd):
     """The force over a step in which every spring keeps the mode that it had at the end of the last one, less that of
     full slip forward. A spring that sticks bears L[e] - L[s] more, one that slips back -2 L[s]. As L is linear and the
-    same for all, they are together one spring, with the state `excess`, which is used up.
+    same for all, they are together one spring, with the state `lumped`, which is used up.
 
     sticking, back: shares of the springs, as of `row` for the last step; the others are those of `row` for this step.
     Answers area, moment and force at the end.
     """
     h, part = tools.times.h, sticking + 2.0 * back
     p, q = sticking * path.x_1 - part * path.z_1, sticking * path.x_2 - part * path.z_2
-    end = excess[0, 0] + h * (p + q * h) + T * (sticking * xd - part * zd)
-    area, moment = hold(excess, 0, p, q, h, STEP, T, tools, arms)
+    end = lumped[0, 0] + h * (p + q * h) + T * (sticking * xd - part * zd)
+    area, moment = hold(lumped, 0, p, q, h, STEP, T, tools, arms)
     if arms is not None:
         for j in range(arms.rho.size):
-            end += arms.rho[j] * excess[1 + j, 0]
+            end += arms.rho[j] * lumped[1 + j, 0]
     return area, moment, end

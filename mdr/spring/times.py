@@ -1,4 +1,4 @@
-"""What the length of a step, or of a part of it, makes of the arms and modes of a material; and room to work in."""
+"""Factors of the arms and modes of a material over a step, or a part of it; and room to work in."""
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
@@ -16,7 +16,7 @@ STEP, PART = 0, 1  #: rows of Times: of the whole step, and of the part of it th
 
 
 class Times(NamedTuple):
-    """Known once for a step: what its time makes of arms and modes. The row of a part is filled on the way."""
+    """Known once for a step: what its time makes of arms and modes. The row of a part is filled as the step goes."""
 
     h: float  #: length of the step
     arms: Array  #: (2, 9, J) what arms come to that are held on p t + q t²: see `fill`

@@ -31,11 +31,11 @@ TOUCHING = 1e-7  #: part of a step: a spring that has touched for less has a for
 
 
 @inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
-def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
+def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, lumped, made):
     """The springs that do one thing for all of a step h along a line: their Answer.
 
     s, e (n,): compressions and extensions, updated. Of made the first n are filled with one, or with zero for a spring
-    that is not handled. zd, xd: true rates of the top at the end of the step. excess: as of `row`; theirs is added. A
+    that is not handled. zd, xd: true rates of the top at the end of the step. lumped: as of `row`; theirs is added. A
     parabola lies below the line through its ends by no more than h²/8 of its curvature.
     """
     rate, fallen, z_1, z_2, x_1, x_2 = 0.0, 0.0, path.z_1, path.z_2, path.x_1, path.x_2
@@ -51,7 +51,7 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
     dip_of_rate = eighth * rate * rate * rate
     # of the margins R - f and R + f that a force f has to slip forward and back, R its limit
     rate_ahead, rate_behind = z_1 - x_1 + 2.0 * T * (z_2 - x_2), z_1 + x_1 + 2.0 * T * (z_2 + x_2)
-    area = moment = end = sticking = back = normal_area = normal_moment = normal_end = pressed = of_excess = 0.0
+    area = moment = end = sticking = back = normal_area = normal_moment = normal_end = pressed = of_lumped = 0.0
     for i in range(gap.size):
         tol, z_0, s_0, e_0, w_i = ROUNDING * (1.0 + abs(gap[i])), path.z_0 - gap[i], s[i], e[i], w[i]
         R, R_1, f, f_1 = z_0 + T * z_1, z_0 + sink + T * z_end, e_0 + T * x_1, e_0 + go + T * x_end
@@ -83,12 +83,12 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, excess, made):
         normal_area += bears * normal
         normal_moment += bears * lever
         normal_end += bears * R
-        of_excess += w_i * (e_1 - s_1 if sticks else (-2.0 * s_1 if slips_back else 0.0))
+        of_lumped += w_i * (e_1 - s_1 if sticks else (-2.0 * s_1 if slips_back else 0.0))
         s[i] = fallen * s_0 if flies else (s_1 if sticks | slides else s_0)
         e[i] = fallen * e_0 if flies else (e_1 if sticks | slides else e_0)
         made[i] = 1.0 if sticks | slides | flies else 0.0
-    if excess is not None:
-        excess[0, 0] += of_excess
+    if lumped is not None:
+        lumped[0, 0] += of_lumped
     stuck = h * sticking
     return Answer(
         area, moment, end, stuck, 0.5 * h * stuck, sticking, back, normal_area, normal_moment, normal_end, pressed

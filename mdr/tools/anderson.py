@@ -23,34 +23,34 @@ def shares(steps: Array, last: Array, rcond: float) -> Array:
         for m in range(k):
             size += steps[j, m] * steps[j, m]
         greatest = max(greatest, size)
-    ways, weights = np.zeros((n, k)), np.zeros((n, n))  # direction i is the sum of weights[i] times the steps
+    directions, weights = np.zeros((n, k)), np.zeros((n, n))  # direction i is the sum of weights[i] times the steps
     shared, rest = np.zeros(n), last.copy()
     for j in range(n):
         i = n - 1 - j
-        way, weight = steps[i].copy(), np.zeros(n)
+        direction, weight = steps[i].copy(), np.zeros(n)
         weight[i] = 1.0
         for _ in range(2):  # once more for what rounding leaves
             for other in range(i + 1, n):
                 along = 0.0
                 for m in range(k):
-                    along += ways[other, m] * way[m]
+                    along += directions[other, m] * direction[m]
                 for m in range(k):
-                    way[m] -= along * ways[other, m]
+                    direction[m] -= along * directions[other, m]
                 for m in range(n):
                     weight[m] -= along * weights[other, m]
         left = 0.0
         for m in range(k):
-            left += way[m] * way[m]
+            left += direction[m] * direction[m]
         if left <= rcond * rcond * greatest or left == 0.0:
             continue
         left = np.sqrt(left)
         along = 0.0
         for m in range(k):
-            ways[i, m] = way[m] / left
-            along += ways[i, m] * rest[m]
+            directions[i, m] = direction[m] / left
+            along += directions[i, m] * rest[m]
         for m in range(n):
             weights[i, m] = weight[m] / left
             shared[m] += along * weights[i, m]
         for m in range(k):
-            rest[m] -= along * ways[i, m]
+            rest[m] -= along * directions[i, m]
     return shared

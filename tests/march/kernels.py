@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 from numba import njit
 
-from mdr.march.dynamics.kernel import HEAD, N_T, N_WAYS, Kernel, N, new_trace, trace_of
+from mdr.march.dynamics.kernel import HEAD, N_AXES, N_T, Kernel, N, new_trace, trace_of
 from mdr.march.dynamics.state import MarchState
 from mdr.march.dynamics.stepper import Stepper
 from mdr.march.periodic.shooting import Options, Shooting
@@ -42,12 +42,12 @@ class OnAMap(Stepper):
     def __init__(self, A, b, edge, tolerance):
         n = b.size - 2
         head = np.zeros(HEAD)
-        head[[N, N_T, N_WAYS]] = n, 2, 1
+        head[[N, N_T, N_AXES]] = n, 2, 1
         self.kernel, self.block = Kernel(trimmed), np.concatenate([head, A.ravel(), b, [edge]])
         self.v, self.tolerance, self.mean_limit, self.n_periods = 0.0, tolerance, 1.0, 0
         drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
         limit = SimpleNamespace(most=np.full(n, 1e300))  # no friction brings a state back
-        self.scaled = SimpleNamespace(drive=drive, body=body, limit=limit, faces=None, in_plane=None, ways=1)
+        self.scaled = SimpleNamespace(drive=drive, body=body, limit=limit, faces=None, in_plane=None, n_axes=1)
         self.ticker = Ticker("map")
 
 

@@ -167,7 +167,7 @@ def test_what_remembers_long_is_solved_for_and_not_awaited(material, pull):
 def test_a_start_from_rest_goes_its_way_before_the_periodic_state_is_looked_for():
     case, v_0 = body(*BODIES["punch, elastic"])
     run = steady(case, v_0, Resolution(32, 128, "rest", True))
-    assert run.n_periods >= max(run.on_the_way, 32)
+    assert run.n_periods >= max(run.pre_sliding, 32)
     full = steady(case, v_0, Resolution(32, 128, "full_slip", True))
     assert abs(run.cof - full.cof) <= run.settling.spread + full.settling.spread
 

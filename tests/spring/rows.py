@@ -24,9 +24,9 @@ MATERIALS = {
 
 
 @compiled(nogil=True, error_model="numpy")
-def row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look):
+def row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     """The row of the library, which compiled functions alone may call."""
-    return of.row(s, e, springs, path, zd, xd, T, modes, arms, tools, excess, each, look)
+    return of.row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,14 +124,14 @@ class Row:
         return self.stepped(look=looks), looks
 
     def at_once(self, rates=None, each=False):
-        """All springs in one call: e, s, the answer, the excess, and what each spring does if it is asked for, for
+        """All springs in one call: e, s, the answer, the lumped, and what each spring does if it is asked for, for
         which all are followed from event to event. rates: other ones at the end than those of the parabolas.
         """
         e, s, end, n = self.e.copy(), self.s.copy(), self.from_then(self.h), self.gap.size
-        tools, excess = tools_for(self.law, self.h, n), np.full((s.shape[0], 1), np.nan)
+        tools, lumped = tools_for(self.law, self.h, n), np.full((s.shape[0], 1), np.nan)
         seen, rates = Each(*np.empty((3, n))) if each else None, rates or (end.z_1, end.x_1)
-        of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, excess, seen, None)
-        return e, s, of, excess, seen
+        of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, lumped, seen, None)
+        return e, s, of, lumped, seen
 
     def pressed(self):
         """Compressions, sums of area and moment, and for how long each has pressed, without friction."""

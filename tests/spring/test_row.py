@@ -158,11 +158,11 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
         )
         tools, end = tools_for(one.law, half, one.gap.size), then.from_then(half)
         T, _, arms = one.law
-        excess = np.zeros((one.s.shape[0], 1))
+        lumped = np.zeros((one.s.shape[0], 1))
         row_of = Springs(first.gap, first.w)
-        last = row(first.s.copy(), first.e.copy(), row_of, first.path, 0, 0, *one.law, tools, excess, None, None)
+        last = row(first.s.copy(), first.e.copy(), row_of, first.path, 0, 0, *one.law, tools, lumped, None, None)
         ends = end.z_1, end.x_1
-        area, moment, force = as_they_are(then.path, last.sticking, last.back, T, arms, tools, excess, *ends)
+        area, moment, force = as_they_are(then.path, last.sticking, last.back, T, arms, tools, lumped, *ends)
         s_end, of_slip, moment_of_slip, _ = then.pressed()
         normal = one.roots @ (s_end @ then.w) + T * end.z_1 * then.w.sum()
         row_of = Springs(then.gap, then.w)

@@ -57,12 +57,12 @@ def body_of(M: float, C: float, K: float, law: Law, h: float, ringing: float) ->
         return Body(True, False, 0.0, 0.0, K, h, 0.0, square, none, none, square)
     if ringing * h > 2 * np.pi / RESOLVED or law.T * h > M:  # it rings on what sticks, or that stops it at once
         return Body(False, True, M, C, K, h, ringing, square, none, none, square)
-    way, way_1, way_2, turn, rate = pushed(C * h / M, K * h**2 / M)
-    free = ((turn, h * way), (-K * h / M * way, rate))
-    # a force f + g t takes off way_1 f h² + way_2 g h³, over M, and way f h + way_1 g h² of the rate;
+    moved, moved_1, moved_2, turn, rate = pushed(C * h / M, K * h**2 / M)
+    free = ((turn, h * moved), (-K * h / M * moved, rate))
+    # a force f + g t takes off moved_1 f h² + moved_2 g h³, over M, and moved f h + moved_1 g h² of the rate;
     # f = 4 a/h - 6 b/h², g = 12 b/h³ - 6 a/h² has the area a and the moment b
-    area = (h * (4 * way_1 - 6 * way_2) / M, (4 * way - 6 * way_1) / M)
-    moment = ((12 * way_2 - 6 * way_1) / M, (12 * way_1 - 6 * way) / h / M)
+    area = (h * (4 * moved_1 - 6 * moved_2) / M, (4 * moved - 6 * moved_1) / M)
+    moment = ((12 * moved_2 - 6 * moved_1) / M, (12 * moved_1 - 6 * moved) / h / M)
     return Body(False, False, M, C, K, h, ringing, free, area, moment, _stuck(law, h, area, moment))
 
 
@@ -74,8 +74,8 @@ def numbers_of(body: Body) -> list[float]:
 
 @compiled(error_model="numpy")
 def pushed(c, k):  # type: ignore[no-untyped-def]
-    """A body y'' + c y' + k y = 0 after the time 1: its way y from a velocity of one, the first and the second integral
-    of this over the time, its way from a displacement of one, and its velocity from a velocity of one.
+    """A body y'' + c y' + k y = 0 after the time 1: its displacement from a velocity of one, the first and the second
+    integral of this over the time, its displacement from a displacement of one and its velocity from a velocity of one.
 
     With decay rates p and q the first three are divided differences of the exponential at -p and -q; with 0; and with 0
     twice. They follow from a series where both rates are small, else from each other, divided by what is not small.
@@ -83,24 +83,24 @@ def pushed(c, k):  # type: ignore[no-untyped-def]
     square = c * c / 4.0 - k
     root = np.sqrt(abs(square))
     if c / 2.0 + (root if square > 0.0 else 0.0) <= 1.0 and k <= 1.0:
-        way = way_1 = way_2 = last = 0.0
+        moved = moved_1 = moved_2 = last = 0.0
         now = factor = 1.0
         for n in range(TERMS):  # factor: 1/(n + 1)!
-            way, way_1 = way + now * factor, way_1 + now * factor / (n + 2)
-            way_2 += now * factor / ((n + 2) * (n + 3))
+            moved, moved_1 = moved + now * factor, moved_1 + now * factor / (n + 2)
+            moved_2 += now * factor / ((n + 2) * (n + 3))
             last, now, factor = now, -c * now - k * last, factor / (n + 2)
-        return way, way_1, way_2, 1.0 - k * way_1, 1.0 - c * way - k * way_1
+        return moved, moved_1, moved_2, 1.0 - k * moved_1, 1.0 - c * moved - k * moved_1
     if square < 0.0:
         decay = np.exp(-c / 2.0)
-        way = decay * np.sin(root) / root
-        turn, rate = decay * np.cos(root) + c / 2.0 * way, decay * np.cos(root) - c / 2.0 * way
-        way_1 = (1.0 - turn) / k
-        return way, way_1, (1.0 - way - c * way_1) / k, turn, rate
+        moved = decay * np.sin(root) / root
+        turn, rate = decay * np.cos(root) + c / 2.0 * moved, decay * np.cos(root) - c / 2.0 * moved
+        moved_1 = (1.0 - turn) / k
+        return moved, moved_1, (1.0 - moved - c * moved_1) / k, turn, rate
     q = c / 2.0 + root
     p = k / q
-    way, slow = np.exp(-p) * phi_of(2.0 * root)[1], phi_of(p)
-    way_1 = (slow[1] - way) / q
-    return way, way_1, (slow[2] - way_1) / q, np.exp(-p) + p * way, np.exp(-q) - p * way
+    moved, slow = np.exp(-p) * phi_of(2.0 * root)[1], phi_of(p)
+    moved_1 = (slow[1] - moved) / q
+    return moved, moved_1, (slow[2] - moved_1) / q, np.exp(-p) + p * moved, np.exp(-q) - p * moved
 
 
 def _stuck(law: Law, h: float, area: Pair, moment: Pair) -> Square:
@@ -112,8 +112,8 @@ def _stuck(law: Law, h: float, area: Pair, moment: Pair) -> Square:
         phi = phi_of(h * rate)
         a_p, a_q = a_p + rho * h**2 * phi[2], a_q + 2 * rho * h**3 * phi[3]
         b_p, b_q = b_p + rho * h**3 * (phi[2] - phi[3]), b_q + 2 * rho * h**4 * (phi[3] - phi[4])
-    rows = [(a * a_p + b * b_p, a * a_q + b * b_q) for a, b in zip(area, moment, strict=True)]
-    first, second = ((float(p / h), float(0.5 * (q / h - p))) for p, q in rows)  # by y and y' at the end
+    pairs = [(a * a_p + b * b_p, a * a_q + b * b_q) for a, b in zip(area, moment, strict=True)]
+    first, second = ((float(p / h), float(0.5 * (q / h - p))) for p, q in pairs)  # by y and y' at the end
     return first, second
 
 

@@ -75,7 +75,7 @@ def later(path, t):
 
 @_inline
 def note(trace, j, part, t, path):
-    """Leave the way of the top over a part, 0 or 1, of step j."""
+    """Record the displacement of the top over a part, 0 or 1, of step j."""
     trace.parts[j, part, 0], trace.parts[j, part, 1], trace.parts[j, part, 2] = t, path.x_1, path.x_2
 
 
@@ -88,11 +88,11 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     stick under a light body at every iteration, `enclosed` finds them. In the plane both directions go `together` after
     the first iterations.
 
-    room: for e, s, and the excess of `row` or `correct`. flight: here it only tells a light body along a line. The
+    room: for e, s, and the lumped of `row` or `correct`. flight: here it only tells a light body along a line. The
     others as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
     whether this was solved; e, s, of_body are updated.
     """
-    (T, modes, arms), (e_0, s_0, excess) = law, room
+    (T, modes, arms), (e_0, s_0, lumped) = law, room
     h, path, found = tools.times.h, here.path, False
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -107,7 +107,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
         path, rate = moved(here.path, ahead, aside, side)
         if slip is not None and iteration == 0:
             area, moment, end = as_they_are(
-                path, last.sticking, last.back, law.T, law.arms, tools, excess, here.z_dot, here.x_dot + rate
+                path, last.sticking, last.back, law.T, law.arms, tools, lumped, here.z_dot, here.x_dot + rate
             )
             area, moment, end = here.area + area, here.moment + moment, here.end + end
             stick = last.sticking * h, 0.5 * last.sticking * h * h, last.sticking
@@ -115,7 +115,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             if not fresh:
                 put(e_0, e)
                 put(s_0, s)
-            of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
+            of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
             fresh, last = False, Last(of.sticking, of.back)
             area, moment, end = of.area, of.moment, of.end
             if side is None or iteration <= PLAIN:
@@ -130,7 +130,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             found = found and other
             if iteration >= PLAIN and not found:
                 next_ahead, next_aside = together(
-                    ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, excess, iteration == PLAIN, h
+                    ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, lumped, iteration == PLAIN, h
                 )
             aside = next_aside
         ahead = next_ahead
@@ -289,12 +289,12 @@ def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
-    (T, modes, arms), (e_0, s_0, excess) = law, room
+    (T, modes, arms), (e_0, s_0, lumped) = law, room
     put(e_0, e)
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
-    of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, excess, None, None)
+    of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
     left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 
@@ -327,7 +327,7 @@ def enclosed(e, s, room, of_body, body, springs, here, law, tools):
 
 @_jit
 def next_place(x, f, most, ends):
-    """Where to look next for the zero of a function, f at x, that rises by no more than `most`: ever farther until its
+    """Next place to look for the zero of a function, f at x, that rises by no more than `most`: ever farther until its
     sign has changed, then by regula falsi (the Pegasus method).
 
     ends (4,): a place on the other side of the zero and f there, then the last place and f there; NaN where there is

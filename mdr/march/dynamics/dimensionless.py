@@ -31,7 +31,7 @@ from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
 from mdr.tools.memoise import remembered
 
-LOST = 10 * ROUNDING  #: of a length, way of a spring in a step that is not told from rounding
+LOST = 10 * ROUNDING  #: of a length, displacement of a spring in a step that is not told from rounding
 RINGING_PASSES = 20  #: of the iteration for the oscillation of a body on springs with arms
 
 
@@ -62,10 +62,10 @@ class Units:
 
 
 @dataclass(frozen=True, eq=False)
-class Way:
-    """A shake in one direction over one period of n_steps steps: arrays (n_steps + 1,), both ends included."""
+class AxisMotion:
+    """A shake along one axis over one period of n_steps steps: arrays (n_steps + 1,), both ends included."""
 
-    x: Array  #: way on which it takes the indenter
+    x: Array  #: displacement of the indenter
     x_dot: Array  #: its rate
     far_end: Array  #: motion of the pulling point besides the pull; zero where the tool is shaken
     far_end_dot: Array  #: its rate
@@ -77,8 +77,8 @@ class Drive:
 
     z: Array  #: normal motion
     z_dot: Array  #: its rate
-    along: Way  #: shake along the pull
-    across: Way | None  #: across it; None where friction does not turn
+    along: AxisMotion  #: shake along the pull
+    across: AxisMotion | None  #: across it; None where friction does not turn
     is_shaken: bool  #: whether there is a shake
 
     @property
@@ -93,11 +93,11 @@ class Drive:
 
     def pace(self, v: float) -> float:
         """A scale of velocities where the pull is at v: this, or that of the shake if it is faster."""
-        ways = [self.along] if self.across is None else [self.along, self.across]
-        return max(v, *(float(np.abs(way.x_dot).max()) for way in ways))
+        axes = [self.along] if self.across is None else [self.along, self.across]
+        return max(v, *(float(np.abs(axis.x_dot).max()) for axis in axes))
 
     def with_pull(self, v: float, faces: Faces | None = None) -> loop.Motion:
-        """The way of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
+        """Motion of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
         x, x_dot = self.along.x, self.along.x_dot
         if self.across is not None:
             x, x_dot = x + 1j * self.across.x, x_dot + 1j * self.across.x_dot
@@ -106,18 +106,18 @@ class Drive:
     @classmethod
     def of(cls, case: SlidingContact, length_x: float, steps: int) -> Drive:
         """The imposed motion of a contact."""
-        ways = [(case.way, case.shake_harmonics)]
+        axes = [(case.way, case.shake_harmonics)]
         if case.moves_across:
-            ways += [(case.way_across, case.harmonics_across)]
-        if not all(np.isfinite(way).all() for way, _ in ways):
+            axes += [(case.way_across, case.harmonics_across)]
+        if not all(np.isfinite(x).all() for x, _ in axes):
             raise ValueError(
                 "the pulling point is shaken at the undamped natural frequency of the body: in full slip there is no "
                 "periodic motion to begin with; give the pull a damper, or move omega or m"
             )
         at_pull = case.shake is not None and case.shake.at == "pull" and not case.pull.is_rigid
         along, *across = (
-            Way(*_over_a_period(way / length_x, steps), *_over_a_period(at_pull * far_end / length_x, steps))
-            for way, far_end in ways
+            AxisMotion(*_over_a_period(x / length_x, steps), *_over_a_period(at_pull * far_end / length_x, steps))
+            for x, far_end in axes
         )
         return cls(*case.cycle.over_a_period(steps), along, across[0] if across else None, case.is_shaken)
 
@@ -169,7 +169,7 @@ class ScaledContact:
     body_across: Body  #: across the pull; rigid where it is guided
 
     @property
-    def ways(self) -> int:
+    def n_axes(self) -> int:
         """Directions in the plane in which springs are stretched."""
         return 1 if self.drive.across is None else 2
 
@@ -213,7 +213,7 @@ class ScaledContact:
 
     @cached_property
     def limit(self) -> Limit:
-        """What friction bears at the most."""
+        """The most that friction bears."""
         return Limit.of(self.normal, self.springs, self.drive.z, self.drive.z_dot, self.law, self.faces)
 
     @cached_property
@@ -228,7 +228,7 @@ class ScaledContact:
 
     @cached_property
     def hidden_pull(self) -> float:
-        """Way of a pull over a period that is not told from rounding."""
+        """Displacement of a pull over a period that is not told from rounding."""
         return self.drive.steps * LOST * (1.0 + float(np.abs(self.springs.gap).max()))
 
     def unseen(self, v: float) -> float:
@@ -245,7 +245,7 @@ class ScaledContact:
     @property
     def full_slip_force(self) -> tuple[loop.FullSlipForce | None, Array | None]:
         """Force of the springs over each step, if all slip forward, and times of flight; None where not needed."""
-        if self.body.rigid or self.ways == 2:
+        if self.body.rigid or self.n_axes == 2:
             return None, None
         limit, flight = self.limit, self.normal.flight if self.body.light else None
         return None if self.faces else loop.FullSlipForce(limit.area, limit.moment, limit.end), flight
@@ -257,7 +257,7 @@ class ScaledContact:
 
     @cached_property
     def in_numbers(self) -> tuple[Kernel, Array]:
-        """What marches it, and all that this has to know of it but the velocity."""
+        """The kernel that marches it, and its block: all that this has to know but the velocity."""
         bodies = self.body, self.body_across
         return block_of(self.springs, self.drive.with_pull(0.0, self.faces), self.law, bodies, *self.full_slip_force)
 

@@ -74,20 +74,20 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
     both = stepper.directions(account.y, account.rate)
-    at_pull = any(way.far_end.any() for _, way, _, _ in both)
+    at_pull = any(axis.far_end.any() for _, axis, _, _ in both)
     shake = 0.0 if at_pull else shake
-    for body, way, v, (stretch, rate) in both:
+    for body, axis, v, (stretch, rate) in both:
         if body.rigid:
             continue
-        if way.far_end.any():  # stretch of the system spring, backward
-            stretch, rate = stretch + way.x - way.far_end, rate + way.x_dot - way.far_end_dot
+        if axis.far_end.any():  # stretch of the system spring, backward
+            stretch, rate = stretch + axis.x - axis.far_end, rate + axis.x_dot - axis.far_end_dot
         u, w = OF_QUARTICS[:, :1], h * OF_QUARTICS[:, 1]
         y, y_dot = _between(stretch, rate, h, u, body.light)
         force = -body.K * y - body.C * y_dot  # of the pull, forward
-        pull = v * float(w @ force.sum(axis=1)) if way is scaled.drive.along else pull
+        pull = v * float(w @ force.sum(axis=1)) if axis is scaled.drive.along else pull
         damper += body.C * float(w @ (y_dot**2).sum(axis=1))
         if at_pull:
-            shake += float(w @ (force * _between(way.far_end, way.far_end_dot, h, u, False)[1]).sum(axis=1))
+            shake += float(w @ (force * _between(axis.far_end, axis.far_end_dot, h, u, False)[1]).sum(axis=1))
     viscous = unit_x * sums[SHEAR_VISCOUS] + unit_z * sums[NORMAL_VISCOUS]
     return EnergyBalance(
         pull_work=unit_x * pull,
@@ -106,5 +106,5 @@ def _between(y: Array, y_dot: Array, h: float, u: Array, bends_evenly: bool) -> 
     """
     mean, last = np.diff(y) / h, y_dot[1:]
     first = 2 * mean - last if bends_evenly else y_dot[:-1]
-    way = first * (u - 2 * u**2 + u**3) + last * (u**3 - u**2) + mean * (3 * u**2 - 2 * u**3)
-    return y[:-1] + h * way, first * (1 - 4 * u + 3 * u**2) + last * (3 * u**2 - 2 * u) + mean * 6 * (u - u**2)
+    value = first * (u - 2 * u**2 + u**3) + last * (u**3 - u**2) + mean * (3 * u**2 - 2 * u**3)
+    return y[:-1] + h * value, first * (1 - 4 * u + 3 * u**2) + last * (3 * u**2 - 2 * u) + mean * 6 * (u - u**2)

@@ -21,7 +21,7 @@ class FullSlip:
 
     def __init__(self, body: Body, limit: Limit, rate: Array, pace: float) -> None:
         self.body, self.limit, self.steps = body, limit, rate.size - 1
-        self.rate = rate  #: (n_steps + 1,) of depth less that of the way of a shake
+        self.rate = rate  #: (n_steps + 1,) of depth less that of a shake
         self.pace = pace  #: greatest velocity of the shake
 
     def state(self, v: float = np.inf) -> Array:

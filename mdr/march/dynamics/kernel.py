@@ -1,8 +1,8 @@
 """The march of any contact as a compiled function of plain arrays: its kernel.
 
-What a contact is to the march stands in one row of numbers, its *block*; its kind (material, pull, whether it moves in
-the plane) is compiled into the kernel. All kernels have one signature. So what is built on the march, such as the
-search for a periodic state, is compiled once for all kinds.
+A contact stands in one array of numbers, its *block*; its kind (material, pull, whether it moves in the plane) is
+compiled into the kernel. All kernels have one signature. So what is built on the march, such as the search for a
+periodic state, is compiled once for all kinds.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -31,7 +31,7 @@ SIGNATURE = types.boolean(_ROW, types.float64, _ROW, _ROWS, types.int64, _ROW)
 
 #: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of Coulomb's
 #: share beside a shear strength; of the body along the pull
-N, N_T, N_ARMS, N_MODES, N_WAYS, OF_T, COULOMB, ALONG = range(8)
+N, N_T, N_ARMS, N_MODES, N_AXES, OF_T, COULOMB, ALONG = range(8)
 OF_BODY = 19  #: numbers of a body
 ACROSS, HEAD = ALONG + OF_BODY, ALONG + 2 * OF_BODY  #: places of the body across, and of the arrays
 OF_STEP = 10  #: numbers that a flat trace has of a step
@@ -40,7 +40,7 @@ Is = Literal[True] | None
 
 
 class Kind(NamedTuple):
-    """What a contact has, True, or lacks, None: what it lacks is compiled away."""
+    """Parts that a contact has, True, or lacks, None, which are compiled away."""
 
     modes: Is  #: of its material
     arms: Is
@@ -109,7 +109,7 @@ def block_of(
 
 def new_trace(block: Array, n_periods: int) -> Array:
     """Room for the flat trace of so many periods."""
-    return np.zeros(OF_STEP * n_periods * int(block[N_T] * block[N_WAYS]))
+    return np.zeros(OF_STEP * n_periods * int(block[N_T] * block[N_AXES]))
 
 
 def if_there(value, whether):
@@ -125,7 +125,7 @@ def _(value, whether):
 
 
 def as_numbers(x, plane):
-    """Numbers in a row: pairs as vectors of the plane."""
+    """Numbers in one array: pairs as vectors of the plane."""
     return x if plane is None else x.view(np.complex128)
 
 

@@ -24,7 +24,7 @@ SEEN = 4.0  #: steps that the stick of a spring at the edge has to last for step
 
 @dataclass(frozen=True, eq=False)
 class Limit:
-    """What n springs with J arms bear at the most over a period of n_t steps; not to be written to."""
+    """The most that n springs with J arms bear over a period of n_t steps; not to be written to."""
 
     s: Array  #: (1 + J, n) extensions, and arms, of springs in full slip at its start
     most: Array  #: (n,) the longest that extensions can be there

@@ -34,12 +34,12 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
 
 class Motion(NamedTuple):
-    """The way of the indenter over one period of n_t steps, without the body."""
+    """Motion of the indenter over one period of n_t steps, without the body."""
 
     z: Array  #: (n_t + 1,) normal motion
     z_dot: Array  #: (n_t + 1,) its rate
     v: float  #: steady velocity of the pull
-    x: Array  #: (n_t + 1,) way of a shake in the plane
+    x: Array  #: (n_t + 1,) displacement by a shake, in the plane
     x_dot: Array  #: (n_t + 1,) its rate
     faces: Faces | None = None  #: what the edge of contact does; None where friction is Coulomb's alone
 
@@ -98,15 +98,15 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
     Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
-    # in the plane, where a row has no excess, the room of `correct`: one more array costs a fifth of a step on a line
-    excess = np.zeros((s.shape[0], 1) if side is None else (4 + ROOM, 4))
-    room = np.empty_like(e), np.empty_like(s), excess
+    # in the plane, where a row has no lumped, the room of `correct`: one more array costs a fifth of a step on a line
+    lumped = np.zeros((s.shape[0], 1) if side is None else (4 + ROOM, 4))
+    room = np.empty_like(e), np.empty_like(s), lumped
     for j in range(n_steps):
         k = j % n_t
         trace.parts[j, 0, 0] = 0.0  # one part, unless `follow` cuts the step
         if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
-            excess[:] = 0.0
+            lumped[:] = 0.0
         here = Here(path_of(motion, k, h), motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1], motion.v, 0.0, 0.0, 0.0)
         if slip is not None:
             here = Here(*here[:4], slip.area[k], slip.moment[k], slip.end[k])

@@ -45,27 +45,27 @@ class MarchState:
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)
 def within_friction(x, s, most):
     """Bring the extensions of a state vector into the cone of friction, most (n,), which combinations may leave."""
-    ways = x.size // (s.size + N_BODY)
+    n_axes = x.size // (s.size + N_BODY)
     for i in range(s.shape[1]):
         square = 0.0
-        for way in range(ways):
-            square += x[ways * i + way] ** 2
+        for axis in range(n_axes):
+            square += x[n_axes * i + axis] ** 2
         if square > most[i] * most[i]:
-            for way in range(ways):
-                x[ways * i + way] *= most[i] / np.sqrt(square)
+            for axis in range(n_axes):
+                x[n_axes * i + axis] *= most[i] / np.sqrt(square)
 
 
 @compiled(nogil=True, error_model="numpy", fastmath=FAST)
-def on_other_springs(xs, gap, order, on, ways):
+def on_other_springs(xs, gap, order, on, n_axes):
     """State vectors (k, n_x) of springs with these gaps (n,), and the order of rising ones, on springs with the gaps
     `on` (m,): linear between those, and beyond as the first or the last; where all are one gap, as the last.
     """
     k, n, m = len(xs), gap.size, on.size
-    parts = (xs.shape[1] // ways - N_BODY) // n
-    out = np.empty((k, ways * (parts * m + N_BODY)))
+    parts = (xs.shape[1] // n_axes - N_BODY) // n
+    out = np.empty((k, n_axes * (parts * m + N_BODY)))
     for j in range(k):
-        for i in range(ways * N_BODY):
-            out[j, ways * parts * m + i] = xs[j, ways * parts * n + i]
+        for i in range(n_axes * N_BODY):
+            out[j, n_axes * parts * m + i] = xs[j, n_axes * parts * n + i]
     for i in range(m):
         first, last = 0, n - 1
         while last - first > 1:
@@ -79,7 +79,7 @@ def on_other_springs(xs, gap, order, on, ways):
         share = min(max((on[i] - gap[a]) / apart, 0.0), 1.0) if apart > 0.0 else 1.0
         for j in range(k):
             for part in range(parts):
-                for way in range(ways):
-                    before, after = xs[j, ways * (part * n + a) + way], xs[j, ways * (part * n + b) + way]
-                    out[j, ways * (part * m + i) + way] = before + share * (after - before)
+                for axis in range(n_axes):
+                    before, after = xs[j, n_axes * (part * n + a) + axis], xs[j, n_axes * (part * n + b) + axis]
+                    out[j, n_axes * (part * m + i) + axis] = before + share * (after - before)
     return out

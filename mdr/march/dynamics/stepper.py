@@ -14,7 +14,7 @@ import numpy as np
 
 from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
-from mdr.march.dynamics.dimensionless import ScaledContact, Way
+from mdr.march.dynamics.dimensionless import AxisMotion, ScaledContact
 from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
@@ -26,7 +26,7 @@ from mdr.tools.progress import Ticker, time_is_over
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
-WITH_IT = 0.5  #: of the way of the pull, on which a spring may go with it or lose and still count as slipping as far
+WITH_IT = 0.5  #: of what the pull moves: so much a spring may move with it, or lose, and still count as slipping as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -77,7 +77,7 @@ class Stepper:
 
     @cached_property
     def motion(self) -> loop.Motion:
-        """The way of the indenter over a period."""
+        """Motion of the indenter over a period."""
         return self.scaled.drive.with_pull(self.v, self.scaled.faces)
 
     @cached_property
@@ -101,7 +101,7 @@ class Stepper:
 
     def _ahead(self, body: Array) -> MarchState:
         """All springs at their limit along the pull, and the body so."""
-        scaled, one = self.scaled, 1.0 if self.scaled.ways == 1 else 1 + 0j
+        scaled, one = self.scaled, 1.0 if self.scaled.n_axes == 1 else 1 + 0j
         return MarchState.of(one * scaled.limit.s, scaled.normal.s, one * body)
 
     def rest(self) -> MarchState:
@@ -171,7 +171,7 @@ class Stepper:
         return cof.real, cof.imag
 
     def least_slip(self, trace: loop.Trace, cof: float) -> float:
-        """Least velocity, the way of the pull, of springs that slip all the time, in a period of this COF over mu_0;
+        """Least velocity along the pull of springs that slip all the time, in a period of this COF over mu_0;
         zero if some do not. A step in which contact begins counts as a whole, if it is not cut there.
         """
         if self.scaled.faces or not abs(1 - cof) <= EXACT:
@@ -196,7 +196,7 @@ class Stepper:
         seen = loop.Seen(nodes, sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
-        tools = tools_for(scaled.law, scaled.drive.h, in_plane=scaled.ways == 2)
+        tools = tools_for(scaled.law, scaled.drive.h, in_plane=scaled.n_axes == 2)
         if scaled.drive.is_shaken:
             sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
         loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, tools, trace, seen)
@@ -219,11 +219,11 @@ class Stepper:
         loop.look(e, s, springs, self.motion, scaled.law, tools_for(scaled.law, scaled.drive.h), trace, seen)
         return seen.f[:, 0], seen.f_z[:, 0]
 
-    def _work_of(self, way: Way, area: Array, moment: Array) -> float:
+    def _work_of(self, axis: AxisMotion, area: Array, moment: Array) -> float:
         """Work of a shake, which goes on parabolas."""
         h = self.scaled.drive.h
-        x_2 = np.diff(way.x_dot) / (2 * h)
-        return float((np.diff(way.x) / h - x_2 * h) @ area + 2 * x_2 @ moment)
+        x_2 = np.diff(axis.x_dot) / (2 * h)
+        return float((np.diff(axis.x) / h - x_2 * h) @ area + 2 * x_2 @ moment)
 
     def within_friction(self, state: MarchState) -> MarchState:
         """The state with every extension within the cone of friction; in place."""
@@ -233,20 +233,20 @@ class Stepper:
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
         scaled, system = self.scaled, 0.0
-        for body, way, pull, (y, u_dot) in self.directions(state.body[Y], state.body[RATE]):
+        for body, axis, pull, (y, u_dot) in self.directions(state.body[Y], state.body[RATE]):
             stretch, velocity = float(y), float(u_dot) + pull
-            if way.far_end.any():  # the body moves on the way of the shake too, and stretches its spring by less
-                velocity, stretch = velocity + float(way.x_dot[0]), stretch + float(way.x[0] - way.far_end[0])
+            if axis.far_end.any():  # the body moves with the shake too, and stretches its spring by less
+                velocity, stretch = velocity + float(axis.x_dot[0]), stretch + float(axis.x[0] - axis.far_end[0])
             system += 0.0 if body.rigid else 0.5 * body.K * stretch**2 + 0.5 * body.M * velocity**2
         ratios = np.concatenate([[1.0], scaled.rheology.rho])
         springs = 0.5 * float(ratios @ (np.abs(state.e) ** 2 @ scaled.springs.w))
         normal = 0.5 * float(ratios @ (state.s**2 @ scaled.springs.w))
         return springs + normal * scaled.units.energy_z / scaled.units.energy_x + system
 
-    def directions(self, y: Array, rate: Array) -> list[tuple[Body, Way, float, tuple[Array, Array]]]:
-        """Body, way, velocity of the pull, and motion and rate of the body, along the pull and across it."""
+    def directions(self, y: Array, rate: Array) -> list[tuple[Body, AxisMotion, float, tuple[Array, Array]]]:
+        """Body, shake, velocity of the pull, and motion and rate of the body, along the pull and across it."""
         drive, aside = self.scaled.drive, self.scaled.drive.across
-        along: list[tuple[Body, Way, float, tuple[Array, Array]]] = [
+        along: list[tuple[Body, AxisMotion, float, tuple[Array, Array]]] = [
             (self.scaled.body, drive.along, self.v, (y.real, rate.real))
         ]
         return along if aside is None else [*along, (self.scaled.body_across, aside, 0.0, (y.imag, rate.imag))]

@@ -40,7 +40,7 @@ WIDER = 0.1  #: of the greatest compression: how far outside of friction a step 
 def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
     """The periodic state of every spring, from one of any other; None where it is not found."""
     springs = _Springs(stepper, start)
-    x = springs.inside(_rows(start.e))
+    x = springs.inside(_real(start.e))
     crept = _Crept(x, x)
     if stepper.scaled.rheology.rho:
         crept = iterate(springs.creep, springs.ended, crept, CREEPS)
@@ -52,7 +52,7 @@ def search_alone(stepper: Stepper, start: MarchState) -> Orbit | None:
 
 @dataclass(frozen=True, eq=False)
 class _At:
-    """Where the search is."""
+    """A step of the search."""
 
     x: Array  #: to go on from
     place: Array  #: the place of which it is known how far it is off
@@ -73,13 +73,13 @@ class _Stepped(_At):
 
 
 class _Springs:
-    """Springs of a march; their extensions and arms, x, are real rows (n_x, n), those across after those along."""
+    """Springs of a march; their extensions and arms, x, are real numbers (n_x, n), those across after those along."""
 
     def __init__(self, stepper: Stepper, like: MarchState) -> None:
         self.stepper, self.like, self.scaled = stepper, like, stepper.scaled
-        ways, rheology, modes = self.scaled.ways, self.scaled.rheology, self.scaled.law.modes
-        self.roots = np.sqrt(np.tile(np.r_[1.0, rheology.rho], ways))[:, None]
-        self.lasting = np.flatnonzero(np.tile(np.r_[True, np.array(rheology.theta) > FORGOTTEN], ways))
+        n_axes, rheology, modes = self.scaled.n_axes, self.scaled.rheology, self.scaled.law.modes
+        self.roots = np.sqrt(np.tile(np.r_[1.0, rheology.rho], n_axes))[:, None]
+        self.lasting = np.flatnonzero(np.tile(np.r_[True, np.array(rheology.theta) > FORGOTTEN], n_axes))
         limit = self.scaled.limit
         self.farthest = float(limit.most.max()) or float(limit.greatest.max())  # at phase 0 all may be in flight
         self.most = limit.most + WIDER * self.farthest  # how far the vector of each spring may reach
@@ -88,21 +88,21 @@ class _Springs:
         if modes is not None:
             left = np.exp(-2 * np.pi * modes.mu) / -np.expm1(-2 * np.pi * modes.mu)
             of_one = np.eye(1 + len(rheology.rho)) + modes.out @ (left[:, None] * modes.into)
-            self.series = np.asarray(np.kron(np.eye(ways), of_one), dtype=float)
+            self.series = np.asarray(np.kron(np.eye(n_axes), of_one), dtype=float)
 
     def inside(self, x: Array) -> Array:
         """Brought to where friction lets extensions be, or a little further."""
         x = x.copy()
-        along = x[:: len(x) // self.scaled.ways]
+        along = x[:: len(x) // self.scaled.n_axes]
         along *= np.minimum(1.0, self.most / np.maximum(_length(along), 1e-300))
         return x
 
     def marched(self, x: Array) -> Array:
-        """What they are a period later."""
-        return _rows(self.stepper.period(self._state(x)).e)
+        """The springs a period later."""
+        return _real(self.stepper.period(self._state(x)).e)
 
     def moves(self, image: Array, x: Array) -> tuple[Array, Array]:
-        """Where a period that leads to this image would make them creep, and how far each (n,)."""
+        """The way on which a period that leads to this image would make them creep, and its length for each (n,)."""
         move = self.series @ (image - x)
         return move, _length(self.roots * move)
 
@@ -168,6 +168,6 @@ def _length(x: Array) -> Array:
     return np.asarray(np.sqrt((x**2).sum(axis=0)))
 
 
-def _rows(e: Array) -> Array:
-    """Extensions (1 + J, n) as real rows."""
+def _real(e: Array) -> Array:
+    """Extensions (1 + J, n) as real numbers (n_x, n)."""
     return np.concatenate([e.real, e.imag]) if np.iscomplexobj(e) else e.copy()

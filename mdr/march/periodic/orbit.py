@@ -11,8 +11,8 @@ from mdr.tools.arrays import Array
 
 
 class SlowMotions(NamedTuple):
-    """What is known of the slow motions about a periodic state: k displacements that outlive a few periods, in all
-    parts (k, n_x) of the state, and what they are a period later.
+    """Slow motions about a periodic state, as far as they are known: k displacements that outlive a few periods, in all
+    parts (k, n_x) of the state, and these displacements a period later.
     """
 
     before: Array

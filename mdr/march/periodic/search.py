@@ -53,7 +53,7 @@ def search(
 
 @lru_cache(maxsize=32)
 def _how(scaled: ScaledContact) -> Options:
-    """How to look for the periodic state of a contact, at any velocity."""
+    """Options of the search for the periodic state of a contact, at any velocity."""
     slow, (roots, places) = _slow_times(scaled), _energy_of(scaled)
     stable = bool(slow) and (scaled.body.rigid or scaled.body.C > 0)
     memory, most = (of + more * len(slow) for of, more in zip((MEMORY, MOST), A_TIME, strict=True))
@@ -88,7 +88,7 @@ def at_other_resolution(
     parts = [state.x[None]] if motions is None else [state.x[None], motions.before, motions.after]
     xs, gap = np.concatenate(parts), of.springs.gap
     if not np.array_equal(gap, on.springs.gap):
-        xs = on_other_springs(xs, gap, of.order, on.springs.gap, on.ways)
+        xs = on_other_springs(xs, gap, of.order, on.springs.gap, on.n_axes)
     if motions is not None:
         k = len(motions.before)
         motions = SlowMotions(xs[1 : 1 + k], xs[1 + k :])
@@ -108,15 +108,15 @@ def _energy_of(scaled: ScaledContact) -> tuple[Array, tuple[Any, ...]]:
     And the places of slow motions: of the position and velocity of the body, and of each arm of all springs that a
     period does not forget; of the springs themselves where there is neither.
     """
-    ways, rheology, bodies = scaled.ways, scaled.rheology, (scaled.body, scaled.body_across)[: scaled.ways]
+    n_axes, rheology, bodies = scaled.n_axes, scaled.rheology, (scaled.body, scaled.body_across)[: scaled.n_axes]
     of_springs = np.multiply.outer(np.sqrt((1.0, *rheology.rho)), np.sqrt(scaled.springs.w))
     of_bodies = [[0.0 if one.rigid else one.K for one in bodies], [one.M for one in bodies]]
-    roots = np.concatenate([np.repeat(of_springs.ravel(), ways), np.sqrt(of_bodies).ravel()])
-    n, body = of_springs.shape[1], ways * of_springs.size  # springs, and where the numbers of the body begin
+    roots = np.concatenate([np.repeat(of_springs.ravel(), n_axes), np.sqrt(of_bodies).ravel()])
+    n, body = of_springs.shape[1], n_axes * of_springs.size  # springs, and where the numbers of the body begin
     places: list[Any] = []
-    for way, one in enumerate(bodies):
-        places += [body + ways * part + way for part in ((Y, RATE) if one.M else () if one.rigid else (Y,))]
+    for axis, one in enumerate(bodies):
+        places += [body + n_axes * part + axis for part in ((Y, RATE) if one.M else () if one.rigid else (Y,))]
     parts = [1 + j for j, theta in enumerate(rheology.theta) if theta > FORGOTTEN]
     parts = parts if parts or places else [0]
-    places += [slice(ways * j * n + way, ways * (j + 1) * n, ways) for way in range(ways) for j in parts]
+    places += [slice(n_axes * j * n + axis, n_axes * (j + 1) * n, n_axes) for axis in range(n_axes) for j in parts]
     return roots, tuple(places)

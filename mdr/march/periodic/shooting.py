@@ -66,7 +66,7 @@ STABLE = 0.9999  #: largest multiplier told from one, of motions that slow arms 
 AGES = 1e6  #: periods that full slip must last to count as periodic
 TURNS = 30  #: corrections of the Newton-Picard method
 SHORTEST = 1 / 64  #: share of a correction that is tried before the march goes on without it
-LOST = 5  #: corrections in a row of which no share was a gain, after which it ends
+LOST = 5  #: corrections one after the other of which no share was a gain, after which it ends
 
 
 class OutOfTime(Exception):
@@ -75,7 +75,7 @@ class OutOfTime(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Options:
-    """How to look for a periodic state, of n_x numbers."""
+    """Options of a search for a periodic state, of n_x numbers."""
 
     roots: Array  #: (n_x,) of stiffness and mass: a state times them is as long as the root of its energy
     places: tuple[Any, ...]  #: k, one of a number or several, of what moves slowly among the n_x numbers
@@ -95,7 +95,7 @@ class Options:
 
 
 class _Aim(NamedTuple):
-    """What a search goes for next."""
+    """Next aim of a search."""
 
     x: Array  #: (n_x,) where it begins
     close: float  #: change over a period, over the size of the state
@@ -103,11 +103,11 @@ class _Aim(NamedTuple):
 
 
 class _Correction(NamedTuple):
-    """What a correction knows of those before it."""
+    """Pushes of the next correction."""
 
-    ways: Array  #: (k,) signs of its pushes
+    signs: Array  #: (k,) of its pushes
     push: float = PUSH  #: their length, over the size of the state
-    lost: int = 0  #: corrections in a row that were no gain
+    lost: int = 0  #: corrections one after the other that were no gain
 
 
 class Shooting:
@@ -236,15 +236,15 @@ class Shooting:
             settling = Settling(cof, spread, False, "unsettled", gain, why, across=across)
         self.found = Orbit(MarchState(x, self.s.copy()), settling, least_slip, self.motions)
 
-    def _pushed(self, ways: Array, push: float) -> tuple[Array, Array, float]:
+    def _pushed(self, signs: Array, push: float) -> tuple[Array, Array, float]:
         """Push the best state by a share of its size. What it comes to after some periods, and a period later (2, n_x);
         what its pushes have become then (2, k, n_x), as displacements from there; their length.
 
-        ways (k,): signs.
+        signs: (k,), of the pushes.
         """
         best = self.search.states[BEST]
         size = push * (self._length(best) or 1.0)  # of a state that is nothing, as in flight, the unit
-        x = np.concatenate([best[None], best + size * ways[:, None] * self.how.pushes])
+        x = np.concatenate([best[None], best + size * signs[:, None] * self.how.pushes])
         pairs = np.empty((2, *x.shape))
         for j, one in enumerate(x):
             for _ in range(BETWEEN):
@@ -291,17 +291,17 @@ class Shooting:
         """A Newton-Picard correction of the best state along the pushed motions, for one of less change over a period.
 
         The map has kinks, where stick begins. A correction that has to be cut short meets one; so the next pushes go
-        the same way and as far, to see the slope on both sides of it.
+        in the same direction and as far, to see the slope on both sides of it.
         """
         search, roots = self.search, self.how.roots
-        (begin, image), (before, after), _ = self._pushed(at.ways, at.push)
+        (begin, image), (before, after), _ = self._pushed(at.signs, at.push)
         size, move = self._length(image) + 1e-300, roots * (image - begin)
         change, turn = float(np.linalg.norm(move)) / size, (roots * (after - before)).T
         search.states[BEST], search.changes[LEAST] = image, change
         if not np.isfinite(turn).all():
             return at._replace(lost=LOST)
         share = -np.linalg.lstsq(turn, move, rcond=1e-12)[0]
-        step, ways, part = share @ after, at.ways * np.where(share < 0, -1, 1), 1.0
+        step, signs, part = share @ after, at.signs * np.where(share < 0, -1, 1), 1.0
         while part >= SHORTEST:
             tried = image + part * step
             reached = self._period(tried)
@@ -309,6 +309,6 @@ class Shooting:
             if less < (1 - 0.1 * part) * change:
                 search.states[BEST], search.changes[LEAST] = reached, less
                 push = np.clip(part * self._length(step) / size, 1e-9, PUSH if part == 1 else FARTHEST)
-                return _Correction(ways, float(push))
+                return _Correction(signs, float(push))
             part *= 0.5
-        return _Correction(ways, 0.1 * at.push, at.lost + 1)  # no part is a gain: what the pushes saw was not of here
+        return _Correction(signs, 0.1 * at.push, at.lost + 1)  # no part is a gain: what the pushes saw was not of here

@@ -19,7 +19,7 @@ from mdr.march.periodic.orbit import Orbit
 from mdr.march.periodic.search import at_other_resolution, gain_at_other_resolution, search, search_from_full_slip
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.shooting import FULL
-from mdr.march.periodic.waiting import Waiting, way_from_rest
+from mdr.march.periodic.waiting import Waiting, pre_sliding
 from mdr.normal.springs import SpringArray, springs_of
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
@@ -87,9 +87,9 @@ class MarchEnd:
         return self.orbit.settling
 
     @property
-    def on_the_way(self) -> float:
-        """Periods of pre-sliding: what a run from rest takes to stretch springs and pull; zero from full slip."""
-        return 0.0 if self.waited is None else self.waited.on_the_way
+    def pre_sliding(self) -> float:
+        """Periods of pre-sliding: those that a run from rest takes to stretch springs and pull; zero from full slip."""
+        return 0.0 if self.waited is None else self.waited.pre_sliding
 
     @property
     def cof(self) -> float:
@@ -168,7 +168,7 @@ def steady(
     orbit = _searched(stepper, resolution, near) if n_periods is None else None
     if orbit is None:
         start = stepper.full_slip() if from_full_slip else stepper.rest()
-        waiting = Waiting(stepper, start, 0.0 if from_full_slip else way_from_rest(scaled, stepper.v))
+        waiting = Waiting(stepper, start, 0.0 if from_full_slip else pre_sliding(scaled, stepper.v))
         if n_periods is None:
             orbit = waiting.wait(most or MAX_PERIODS["rigid" if scaled.body.rigid else "spring"])
         else:
@@ -188,7 +188,7 @@ def alike_to(end: MarchEnd) -> float:
     constant in L[s]. So one that is pressed less by the least of (f + L[s])/2 in a period just does not slip back.
     """
     scaled, stepper = end.scaled, end.stepper
-    if scaled.body.rigid or scaled.ways == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
+    if scaled.body.rigid or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
         return np.inf
     deepest = int(np.argmin(scaled.springs.gap))
     gap = float(scaled.springs.gap[deepest])
@@ -207,7 +207,7 @@ def check(case: SlidingContact, v_0: float) -> None:
             f"the amplitude du_z = {cycle.unit:g} m is less than {1 / DEEPEST:g} of u_z0 and lost in the rounding of a "
             "march; raise it: 1 - cof/mu_0 is proportional to it there"
         )
-    farthest = max(float(np.abs(way).max(initial=0.0)) for way in (case.way, case.way_across))
+    farthest = max(float(np.abs(x).max(initial=0.0)) for x in (case.way, case.way_across))
     if np.inf > farthest > DEEPEST * case.unit_length:
         raise ValueError(
             f"the shake is more than {DEEPEST:g} times mu_0 kappa u_z0 (or du_z), so that the deflection of springs is "
@@ -225,11 +225,11 @@ def _searched(stepper: Stepper, resolution: Resolution, near: MarchEnd | None) -
     itself.
     """
     scaled, orbit, from_full_slip = stepper.scaled, None, resolution.start == "full_slip"
-    in_two_periods = scaled.body.rigid and not scaled.rheology.remembers and scaled.ways == 1
+    in_two_periods = scaled.body.rigid and not scaled.rheology.remembers and scaled.n_axes == 1
     if in_two_periods and from_full_slip and stepper.v > 0:
         return _after_a_period(stepper)
     uncoupled = (
-        (scaled.ways == 2 or scaled.rheology.rho) and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
+        (scaled.n_axes == 2 or scaled.rheology.rho) and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
     )
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
     if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins

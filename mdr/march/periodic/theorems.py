@@ -1,4 +1,4 @@
-"""What the friction of any contact must obey, whatever its shape, material and pull; asked of every settled run.
+"""Theorems that the friction of any contact obeys, whatever its shape, material and pull; asked of every settled run.
 
 Under a given normal motion two motions never move apart, and with them friction never falls with velocity
 (validation/uniqueness.py). So mean F_x over mean F_z lies between its limit at v_0 -> 0, mu_0 min F_N/mean F_N, and

@@ -29,17 +29,17 @@ SOLVE_AGAIN = 8  #: times the periods after which the periodic state is looked f
 DYING = 0.1  #: share of the swing of a damped body that is still to die away
 #: why a march ends at once whose steps do not converge
 NO_STEP = "the motion of the body over a step, in which it and its springs agree, was not found"
-FEW = 0.1  #: of the way from rest, that a pull has to go while it is waited for late springs
+FEW = 0.1  #: of the distance of pre-sliding, that a pull has to go while it is waited for late springs
 SWING_TOLERANCE = 1e-3  #: growth of the swing of the body within the run, over the swing
 
 
 class Waiting:
     """A march that goes on until it settles."""
 
-    def __init__(self, stepper: Stepper, state: MarchState, on_the_way: float = 0.0) -> None:
-        self.stepper, self.scaled, self.state, self.on_the_way = stepper, stepper.scaled, state, on_the_way
+    def __init__(self, stepper: Stepper, state: MarchState, pre_sliding: float = 0.0) -> None:
+        self.stepper, self.scaled, self.state, self.pre_sliding = stepper, stepper.scaled, state, pre_sliding
         self.periods, self.late, self.least_slip = Periods(*np.empty((3, 0))), 0.0, 0.0
-        self.most, self.solve_at, self.over = 0, 0, False
+        self.most, self.solve_at, self.over = 0, 0, False  # of `wait`
 
     @property
     def n(self) -> int:
@@ -66,16 +66,16 @@ class Waiting:
         self.periods = joined([self.periods, periods])
 
     def after(self, n_periods: int) -> Orbit:
-        """What so many periods lead to."""
+        """The end after so many periods."""
         self.advance(n_periods)
         return self._ended(self.assess() if self.n else Settling(0.0, UNKNOWN, False, "unsettled"))
 
     def wait(self, most: int) -> Orbit:
         """March until the windows agree, but not before every spring has been pulled as far as it has to go."""
-        if self.on_the_way > most:
+        if self.pre_sliding > most:
             self.advance(self.first_look)
             return self._ended(replace(self.assess(), settled=False, kind="unsettled"))
-        self.advance(max(self.first_look, int(self.on_the_way)))
+        self.advance(max(self.first_look, int(self.pre_sliding)))
         self.most, self.solve_at = most, self.n
         at = iterate(self._wait_on, lambda at: at.settling.settled or self.over, self._ended(self.assess()))
         if time_is_over() and not (at.settling.settled or self.over):
@@ -83,7 +83,7 @@ class Waiting:
         return at
 
     def _wait_on(self, at: Orbit) -> Orbit:
-        """What half as many periods again lead to, or a periodic state; the same, over, where more do not help."""
+        """The end after half as many periods again, or a periodic state; the same, over, where more do not help."""
         if not self.scaled.body.rigid and self.n >= self.solve_at:
             self.solve_at = SOLVE_AGAIN * self.n
             if (orbit := search(self.stepper, (self.state,))) is not None:
@@ -92,7 +92,7 @@ class Waiting:
         why = ""
         if not self.stepper.solved:
             why = NO_STEP
-        elif self._is_late and self.scaled.drive.is_shaken and FEW * self._way > self.most:
+        elif self._is_late and self.scaled.drive.is_shaken and FEW * self._pre_sliding > self.most:
             why = self._why_late
         elif self._may_settle_by(self.most):
             self.advance(max(4, self.n // 2))
@@ -125,12 +125,12 @@ class Waiting:
         return self.late > self.stepper.tolerance
 
     @cached_property
-    def _way(self) -> float:
-        return way_from_rest(self.scaled, self.stepper.v)
+    def _pre_sliding(self) -> float:
+        return pre_sliding(self.scaled, self.stepper.v)
 
     @property
     def _why_late(self) -> str:
-        return f"after {self.n} periods {LATE}, which may take {self._way:.2g} of them"
+        return f"after {self.n} periods {LATE}, which may take {self._pre_sliding:.2g} of them"
 
     def _is_full(self, cof: float) -> bool:
         """Whether next to nothing is missing in the COF, of what oscillations can take from it."""
@@ -154,7 +154,7 @@ class Waiting:
 
     @cached_property
     def _off_multiple(self) -> float:
-        """How far omega_0/omega is from a whole number; zero where it is one."""
+        """Distance of omega_0/omega from a whole number."""
         ratio = float(np.sqrt(self.scaled.body.K / self.scaled.body.M))
         off = abs(ratio - round(ratio))
         return off if off > 1e-12 * ratio else 0.0
@@ -206,7 +206,7 @@ class Waiting:
         return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.state.body[Y]) else 0.0
 
 
-def way_from_rest(scaled: ScaledContact, v: float) -> float:
+def pre_sliding(scaled: ScaledContact, v: float) -> float:
     """Periods until a run from rest can have stretched springs and system."""
     greatest = scaled.limit.greatest
     distance = float(greatest.max()) + float(scaled.springs.w @ greatest) / scaled.body.K

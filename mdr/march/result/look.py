@@ -66,7 +66,7 @@ def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:
     if scaled.faces:  # of the spring in the middle
         share, strength = scaled.faces.coulomb, np.sqrt(np.roll(scaled.faces.a2[:, 0], -1))
         gap, press = share * gap, share * press + strength
-    if scaled.ways == 2:  # a foot so at rest that the force goes about zero
+    if scaled.n_axes == 2:  # a foot so at rest that the force goes about zero
         away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
         return float((press - away).min()) > gap
     return float((press - along).min() + (press + along).min()) > 2 * gap

@@ -74,7 +74,7 @@ def _rounded(steps: float) -> int:
 
 
 def _harder(case: SlidingContact) -> tuple[int, int]:
-    """How many times the springs and steps of a plain contact a search begins with."""
+    """Factors on the springs and steps of a plain contact, with which a search begins."""
     if _jolts(case):
         return 4, 4
     if case.is_shaken:  # springs slip both ways, and those that do so little are few
@@ -165,7 +165,7 @@ def resolution_of(
     lump: bool = True,
     record: int = 0,
 ) -> Resolution:
-    """What a run begins with: the springs and steps that are asked for, or those that are chosen and may be refined."""
+    """The resolution that a run begins with: springs and steps as asked for, or chosen and to be refined."""
     n, n_t = n_springs or default_springs(case), steps_per_period or default_steps(case)
     check_size(n, n_t, record)
     return Resolution(n, n_t, start, lump, record, accuracy_of(accuracy), (n_springs is None, steps_per_period is None))
@@ -254,7 +254,7 @@ def _that_touch(case: SlidingContact, resolution: Resolution) -> Resolution:
 
 
 class Missed(NamedTuple):
-    """What the companions of a run tell of its COF, over mu_0."""
+    """Errors of the COF of a run, over mu_0, as its companions tell them."""
 
     steps: Companion
     springs: Companion
@@ -267,7 +267,7 @@ class Missed(NamedTuple):
 
 
 def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
-    """What the companions of a run tell."""
+    """Errors of a run, as its companions tell them."""
     beside = companions(main.resolution)
     steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
     by_chance = [Companion(_apart(main, more), BY_CHANCE)]
@@ -282,8 +282,8 @@ def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
 
 
 def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
-    """What steps miss, over mu_0, that their companions miss as well: the oscillation of a mass on the contact, where
-    they do not resolve but damp it, and how a body without mass is thrown as springs touch. It is found beside steps
+    """Error of the steps, over mu_0, that companions have as well: the oscillation of a mass on the contact, where they
+    do not resolve but damp it, and how a body without mass is thrown as springs touch. It is found beside steps
     that resolve the oscillation, as those that are chosen do, as far as that can be afforded; or beside four times as
     many.
     """

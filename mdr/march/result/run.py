@@ -1,4 +1,4 @@
-"""What comes out of a march, in SI: SlidingRun, its modes, its energies and its recorded periods.
+"""Results of a march, in SI: SlidingRun, its modes, its energies and its recorded periods.
 
 Sign and symbols: F_x > 0 holds back an indenter that is pulled forward [N], F_z > 0 presses [N], v_0 pulling velocity
 [m/s], u_x position of the indenter [m].
@@ -56,7 +56,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
-    least_slip: float  #: smallest slip velocity, the way of the pull, of a spring in contact in that period [m/s]
+    least_slip: float  #: smallest slip velocity along the pull of a spring in contact in that period [m/s]
     mean_F_x: float  #: [N]
     mean_F_y: float  #: [N]
     mean_F_z: float  #: [N]
@@ -254,8 +254,8 @@ def _why_not(end: MarchEnd) -> str:
         return f"{settling.why}: raise {'limit_s' if 'time limit' in settling.why else 'n_periods or c_x'}"
     if n < MIN_PERIODS:
         return f"{n} periods are too few to compare windows: raise n_periods to {MIN_PERIODS} or more"
-    if end.resolution.start == "rest" and n < end.on_the_way:
-        return f"a start from rest takes {end.on_the_way:.3g} periods to stretch the springs: start from full slip"
+    if end.resolution.start == "rest" and n < end.pre_sliding:
+        return f"a start from rest takes {end.pre_sliding:.3g} periods to stretch the springs: start from full slip"
     change = f"F_x still changes by {100 * settling.spread:.2g} % of mu_0 F_z between windows after {n} periods"
     if end.scaled.body.M and end.scaled.body.C == 0:
         return f"{change}: a body without damper loses its free oscillation slowly; raise n_periods, or add c_x"
@@ -310,7 +310,7 @@ def _recorded(end: MarchEnd, records: tuple[PeriodRecord, ...]) -> dict[str, Any
 
 
 def _arrays(record: PeriodRecord) -> tuple[Array | NDArray[np.uint8], ...]:
-    """What is kept of a period, at the ends of its steps."""
+    """A period as it is kept, at the ends of its steps."""
     seen = record.seen
     forces = seen.F[:, 0], seen.F[:, 1], seen.F[:, 3]
     springs = seen.e, seen.s, seen.f, seen.f_z

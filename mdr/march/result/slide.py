@@ -54,7 +54,7 @@ def slide(
         None goes on until the motion has settled. A number runs exactly so many periods, without the companion runs
         that bound the error: `cof_error` then holds settling only.
     start : {"full_slip", "rest"}
-        First state. "full_slip": all springs slide the way of the pull; the periodic state of a body is then solved
+        First state. "full_slip": all springs slide along the pull; the periodic state of a body is then solved
         for. "rest": no spring is loaded in the plane; the run waits for the periodic state.
     record : int
         Number of last periods whose forces and springs are kept as arrays. 0 keeps none.
