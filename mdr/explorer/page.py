@@ -18,6 +18,7 @@ from mdr.explorer.curve import Curve, curve_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
+from mdr.explorer.one_message import in_one_message
 from mdr.explorer.over_period import OverPeriod, forces_legend, springs_legend
 from mdr.explorer.pictures import Picture, pictures_of
 from mdr.explorer.state import State
@@ -54,7 +55,7 @@ class Page:
         self.faded = {"curve": look.column(curve, self.curve.figure), "springs": look.column(
             springs, over.controls, over.moving, over.map, look.heading("The forces over a period"), forces, over.forces
         )}  # fmt: skip
-        self._take(state)
+        self.board.show(state)
         pn.state.onload(self._loaded)
 
     @property
@@ -107,22 +108,26 @@ class Page:
         self.alert.object = look.refused(self.attempt(lambda _: state_of(dict(parse_qsl(query.lstrip("?"))))))
 
     def _take(self, state: State) -> None:
-        """Make this the state: the controls stand at it, and its pictures are asked for."""
+        """Make this the state."""
         self.state = state
-        with pn.io.hold(self.document):  # one message to the browser
-            self.board.show(state)
-            for one in self.asked:
-                one.drop()
-            if self.loaded:
-                self._ask()
+        if self.loaded:
+            in_one_message(self.document, partial(self._stand, state))
+
+    def _stand(self, state: State) -> None:
+        """Stand at a state, unless a newer one follows, and ask for its pictures."""
+        if state is not self.state:
+            return
+        self.board.show(state)
+        for one in self.asked:
+            one.drop()
+        self._ask()
 
     def _loaded(self) -> None:
         """Compute only once the browser listens: what changes before may be lost on its way."""
         self.loaded = True
-        self.board.name()
         self.keep.write(self.state)
         pn.state.add_periodic_callback(self._watch, 500)
-        self._ask()
+        in_one_message(self.document, partial(self._stand, self.state))
 
     def _ask(self) -> None:
         """Ask for the pictures; those of the state before fade until they come."""
@@ -141,7 +146,7 @@ class Page:
 
     def _computed(self, show: Callable[[Any, Any], None]) -> Callable[[Any, Any], None]:
         """What a thread calls, for `show` to be called where the page may be changed."""
-        return lambda request, answer: self.document.add_next_tick_callback(partial(show, request, answer))
+        return lambda request, answer: in_one_message(self.document, partial(show, request, answer))
 
     def _show(self, state: State, answer: Picture | Exception | None) -> None:
         if state is not self.state:
@@ -150,8 +155,7 @@ class Page:
         if isinstance(answer, Exception):
             self.status.object = look.refused(f"{look.words_of(answer)}; the picture is that of before")
         elif answer is not None:
-            with pn.io.hold(self.document):  # one message to the browser
-                self._draw(answer)
+            self._draw(answer)
         else:
             self.curve.complete = self.curve.shown
             self.keep.write(state)
