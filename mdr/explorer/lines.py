@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mdr.plots.figures import smooth
+from mdr.plots.curves import smooth
 from mdr.tools.arrays import Array
 
 

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from mdr.plots.figures import COLOURS, MODES, limit_of, mode_patches, periods_of, plot_forces, prefix, style
+from mdr.plots.figures import COLOURS, prefix, style
 from mdr.plots.leashes import Leashes
+from mdr.plots.runs import MODES, limit_of, mode_patches, periods_of, plot_forces
 from mdr.plots.side_view import SideView
 from mdr.tools.checks import count
 from mdr.tools.progress import progress

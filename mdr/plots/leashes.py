@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from mdr.plots.figures import MODES, mode_patches, prefix
+from mdr.plots.figures import prefix
+from mdr.plots.runs import MODES, mode_patches
 
 
 class Leashes:

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr import plots
-from mdr.plots.figures import PIECES, smooth
+from mdr.plots.curves import PIECES, smooth
 
 FREE, STICK, SLIP, SLIP_BACK = range(4)
 
