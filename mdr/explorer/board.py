@@ -97,6 +97,12 @@ class Knob:
             self.words.object, self.words.visible = look.refused(words), bool(words)
 
 
+def built_of(state: State) -> tuple[Any, ...]:
+    """All that decides which controls a state has. Raises ValueError where a control has no value, in its words."""
+    kinds = [state.value(slot) for slot in KINDS]
+    return (state.in_groups, state.v_c is None, state.case.is_shaken, *kinds, *group_values(state.case))
+
+
 class Board:
     """All controls."""
 
@@ -124,9 +130,7 @@ class Board:
     def show(self, state: State) -> None:
         """Stand at a state."""
         self.in_groups = self.held.value = state.in_groups
-        kinds = [state.value(slot) for slot in KINDS]
-        built = (state.in_groups, state.v_c is None, state.case.is_shaken, *kinds, *group_values(state.case))
-        if self.built != built:
+        if self.built != (built := built_of(state)):
             self.built, self.knobs = built, []
             for slot, controls in controls_of(state).items():
                 made = [Knob(one, self.attempt) for one in controls]

@@ -13,7 +13,7 @@ import panel as pn
 from mdr.case.contact import SlidingContact
 from mdr.explorer import look
 from mdr.explorer.asked import Asked, half_space_of, verdict_of
-from mdr.explorer.board import Board
+from mdr.explorer.board import Board, built_of
 from mdr.explorer.curve import Curve, curve_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
@@ -81,7 +81,9 @@ class Page:
     def attempt(self, change: Callable[[State], State]) -> str:
         """Change the state; the answer is why that was refused."""
         try:
-            self._take(change(self.state))
+            after = change(self.state)
+            built_of(after)  # a value that a control shows may be refused too
+            self._take(after)
         except look.REFUSALS as refusal:
             return look.words_of(refusal)
         return ""

@@ -1,0 +1,49 @@
+"""The page without a browser: what changes it, and what it refuses."""
+
+import pytest
+
+import mdr
+
+pytest.importorskip("panel")
+DEPTH = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+CASE = mdr.SlidingContact(mdr.Cone(theta=0.0127), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.4, DEPTH)
+
+
+def test_a_value_that_is_refused_leaves_the_state():
+    """A dashpot so slow is a record, but no control can show the group that it makes."""
+    from bokeh.document import Document
+    from panel.io.state import set_curdoc
+
+    from mdr.explorer.page import Page
+    from mdr.explorer.state import State
+
+    with set_curdoc(Document()):
+        page = Page(State.of(CASE))
+    assert "tau = 1e+09 s is more than" in page.attempt(lambda state: state.changed("material.tau", 1e9))
+    assert page.state.case == CASE
+    assert page.attempt(lambda state: state.changed("material.tau", 2e-3)) == ""
+    assert page.state.case.material.tau == 2e-3
+
+
+def test_changes_leave_together_when_the_document_calls():
+    from bokeh.document import Document
+    from bokeh.document.events import ModelChangedEvent
+    from bokeh.models import Div
+
+    from mdr.explorer.one_message import in_one_message
+
+    document, left, right, seen = Document(), Div(text=""), Div(text=""), []
+    for one in (left, right):
+        document.add_root(one)
+    document.on_change(lambda event: seen.append(event) if isinstance(event, ModelChangedEvent) else None)
+
+    def change():
+        left.text, right.text, left.text = "a", "b", "c"
+        assert not seen
+
+    in_one_message(document, change)
+    assert left.text == ""
+    document.session_callbacks[0].callback()
+    assert {event.model: event.new for event in seen} == {left: "c", right: "b"}
+    left.text = "d"
+    assert seen[-1].new == "d"
