@@ -179,12 +179,12 @@ def random_cof(
     by_springs = _cof(found[list(few)]) - _cof(np.array([*few.values()]))
     found += by_step
     cof, along, normal = _cof(found), found[..., 0], found[..., 1]
-    off = np.abs([_cof(found - by_step) - cof, by_springs, np.full(cof.shape, EXACT * case.mu_0)])
+    off, rounding = np.abs([_cof(found - by_step) - cof, by_springs]), Companion(0.0, least=EXACT * case.mu_0)
     return RandomCof(
         v_0=velocities,
         cof=cof,
         standard_error=np.std(along - cof * normal, axis=0, ddof=1) / (np.sqrt(n) * normal.mean(axis=0)),
-        cof_error=np.array([bound(*(Companion(one) for one in at)) for at in off.T.tolist()]),
+        cof_error=np.array([bound(rounding, *map(Companion, at)) for at in off.T.tolist()]),
         realisations=_cof(found[:, None], axis=1),
         mu_0=case.mu_0,
         duration=drawn.n_t * drawn.dt,

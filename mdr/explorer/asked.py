@@ -11,6 +11,7 @@ import panel as pn
 from mdr.explorer import look
 from mdr.explorer.latest import Latest
 from mdr.explorer.state import State
+from mdr.explorer.together import together
 from mdr.friction.verdict import verdict
 from mdr.normal.resolved import resolved
 from mdr.tools.progress import silent
@@ -42,6 +43,7 @@ class Asked:
         self.asked, self.said.object = None, ""
 
     def _ask(self, state: State) -> None:
+        together()
         self.asked = state
         self.said.object = "computing, some seconds …"
         self.work.ask(state)

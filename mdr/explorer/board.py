@@ -15,6 +15,7 @@ from mdr.explorer.controls import Control, control_of, controls_of
 from mdr.explorer.links import meaning_of, typed
 from mdr.explorer.scripts import NAMES
 from mdr.explorer.state import State, group_values
+from mdr.explorer.together import together
 from mdr.tools.notation import is_number, parted
 
 GROUPED = (
@@ -94,6 +95,7 @@ class Knob:
     def _say(self, words: str) -> None:
         """Why a value was refused; nothing where it was not."""
         if bool(words) or self.words.visible:
+            together()
             self.words.object, self.words.visible = look.refused(words), bool(words)
 
 

@@ -42,8 +42,8 @@ def springs_legend(run: SlidingRun) -> str:
     """The legend of the springs: of slip its directions, where it has more than two."""
     if run.f_y is None:
         return swatches(*MODES)
-    ways = (("along", 0), ("across", 90), ("back", 180), ("-90°", -90))
-    return swatches(*MODES[:2], *((f"slip {way}", to_hex(around()(0.5 + angle / 360))) for way, angle in ways))
+    directions = (("along", 0), ("across", 90), ("back", 180), ("-90°", -90))
+    return swatches(*MODES[:2], *((f"slip {name}", to_hex(around()(0.5 + angle / 360))) for name, angle in directions))
 
 
 def forces_legend(run: SlidingRun) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 from urllib.parse import parse_qsl
 
 import panel as pn
+from tornado.ioloop import IOLoop
 
 from mdr.case.contact import SlidingContact
 from mdr.explorer import look
@@ -18,10 +19,10 @@ from mdr.explorer.curve import Curve, curve_legend
 from mdr.explorer.keep import Keep
 from mdr.explorer.latest import Latest
 from mdr.explorer.links import state_of
-from mdr.explorer.one_message import in_one_message
 from mdr.explorer.over_period import OverPeriod, forces_legend, springs_legend
 from mdr.explorer.pictures import Picture, pictures_of
 from mdr.explorer.state import State
+from mdr.explorer.together import together
 from mdr.given.case_file import parse_said
 from mdr.march.periodic.steady import LEAST_ACCURATE
 from mdr.tools.compiling import TALLY
@@ -55,7 +56,7 @@ class Page:
         self.faded = {"curve": look.column(curve, self.curve.figure), "springs": look.column(
             springs, over.controls, over.moving, over.map, look.heading("The forces over a period"), forces, over.forces
         )}  # fmt: skip
-        self.board.show(state)
+        self._take(state)
         pn.state.onload(self._loaded)
 
     @property
@@ -92,6 +93,7 @@ class Page:
         """Take a case file."""
         if data is None:
             return
+        together()
 
         def loaded(state: State) -> State:
             said = parse_said(data.decode("utf-8-sig"), name)
@@ -107,29 +109,34 @@ class Page:
 
     def _go(self, query: str) -> None:
         """Take the state of a link, as the browser goes back and forth."""
+        together()
         self.alert.object = look.refused(self.attempt(lambda _: state_of(dict(parse_qsl(query.lstrip("?"))))))
 
     def _take(self, state: State) -> None:
-        """Make this the state."""
+        """Make this the state: the controls stand at it, and its pictures are asked for."""
+        together()
         self.state = state
-        if self.loaded:
-            in_one_message(self.document, partial(self._stand, state))
-
-    def _stand(self, state: State) -> None:
-        """Stand at a state, unless a newer one follows, and ask for its pictures."""
-        if state is not self.state:
-            return
         self.board.show(state)
         for one in self.asked:
             one.drop()
-        self._ask()
+        if self.loaded:
+            self._ask()
 
     def _loaded(self) -> None:
         """Compute only once the browser listens: what changes before may be lost on its way."""
-        self.loaded = True
-        self.keep.write(self.state)
         pn.state.add_periodic_callback(self._watch, 500)
-        in_one_message(self.document, partial(self._stand, self.state))
+        pn.state.on_session_destroyed(lambda _: self._closed())
+        together()
+        self.loaded = True
+        self.board.name()
+        self.keep.write(self.state)
+        self._ask()
+
+    def _closed(self) -> None:
+        """Nobody waits for what is worked on."""
+        self.pictures.drop()
+        for one in self.asked:
+            one.work.drop()
 
     def _ask(self) -> None:
         """Ask for the pictures; those of the state before fade until they come."""
@@ -142,13 +149,23 @@ class Page:
     def _watch(self) -> None:
         """Say what is waited for on a machine that is new to it."""
         if self.waits and TALLY.open:
+            together()
             self._tell(COMPILING.format(TALLY.done))
 
     # --- answers ---
 
     def _computed(self, show: Callable[[Any, Any], None]) -> Callable[[Any, Any], None]:
         """What a thread calls, for `show` to be called where the page may be changed."""
-        return lambda request, answer: in_one_message(self.document, partial(show, request, answer))
+        loop = IOLoop.current()
+
+        def shown(request: Any, answer: Any) -> None:
+            together()
+            show(request, answer)
+
+        def called(request: Any, answer: Any) -> None:
+            self.document.add_next_tick_callback(partial(shown, request, answer))
+
+        return lambda request, answer: loop.add_callback(called, request, answer)
 
     def _show(self, state: State, answer: Picture | Exception | None) -> None:
         if state is not self.state:

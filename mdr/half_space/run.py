@@ -220,7 +220,7 @@ def slide(
     coupled : bool
         False leaves out normal-tangential coupling, as springs do.
     start : {"full_slip", "rest"}
-        First state, at the least depth. "full_slip": all cells at their limit, the way of the pull. "rest": no traction
+        First state, at the least depth. "full_slip": all cells at their limit, along the pull. "rest": no traction
         in the plane.
     limit_s : float, optional
         Seconds of computing. The period after that is the last, and the run is unsettled. None sets no limit.

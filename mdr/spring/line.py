@@ -104,8 +104,8 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tool
                 lost = lost_on_parabola(e, i, x_1, x_2, u, h, look.nodes, T, modes, arms)
                 look.sums[SHEAR_VISCOUS] += w * lost
             else:
-                rates = (z_1, z_2), (x_1, x_2)
-                of_slipping(look.sums, w, sign, s, e, i, *rates, u, h, look.nodes, T, modes, arms, tools.room.work)
+                parabolas = (z_1, z_2), (x_1, x_2)
+                of_slipping(look.sums, w, sign, s, e, i, *parabolas, u, h, look.nodes, T, modes, arms, tools.room.work)
         # the state after that time
         A, B = hold(s, i, z_1, z_2, u, k, T, tools, arms)
         pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B

@@ -4,8 +4,8 @@ and a face, springs that do one thing for all of the step go first (whole.py), t
 
 springs: Springs. s, e (1 + J, n), updated: row 0 is compression and extension, row j the stretch of arm j. zd, xd:
 rates of the top at the end of the step. tools: of the step and of so many springs (times.py). lumped, along a line:
-None, or (1 + J, 1), filled with the sum of w (e - s) of springs that stick at the end, and of -2 w s of those that slip
-back, for `as_they_are`. each: None or Each. look: None or Look. Out comes an Answer.
+None, or a state (1 + J, 1) for `as_they_are`, filled with the sum of w (e - s) of springs that stick at the end, and of
+-2 w s of those that slip back. each: None or Each. look: None or Look. Out comes an Answer.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false

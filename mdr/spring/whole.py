@@ -35,8 +35,9 @@ def whole_on_line(s, e, gap, w, path, zd, xd, h, T, modes, lumped, made):
     """The springs that do one thing for all of a step h along a line: their Answer.
 
     s, e (n,): compressions and extensions, updated. Of made the first n are filled with one, or with zero for a spring
-    that is not handled. zd, xd: true rates of the top at the end of the step. lumped: as of `row`; theirs is added. A
-    parabola lies below the line through its ends by no more than h²/8 of its curvature.
+    that is not handled. zd, xd: true rates of the top at the end of the step. lumped: as of `row`; theirs is added.
+
+    A parabola lies below the line through its ends by no more than h²/8 of its curvature.
     """
     rate, fallen, z_1, z_2, x_1, x_2 = 0.0, 0.0, path.z_1, path.z_2, path.x_1, path.x_2
     if modes is not None:

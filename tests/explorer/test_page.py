@@ -29,21 +29,21 @@ def test_changes_leave_together_when_the_document_calls():
     from bokeh.document import Document
     from bokeh.document.events import ModelChangedEvent
     from bokeh.models import Div
+    from panel.io.state import set_curdoc
 
-    from mdr.explorer.one_message import in_one_message
+    from mdr.explorer.together import together
 
     document, left, right, seen = Document(), Div(text=""), Div(text=""), []
     for one in (left, right):
         document.add_root(one)
     document.on_change(lambda event: seen.append(event) if isinstance(event, ModelChangedEvent) else None)
-
-    def change():
-        left.text, right.text, left.text = "a", "b", "c"
-        assert not seen
-
-    in_one_message(document, change)
-    assert left.text == ""
-    document.session_callbacks[0].callback()
-    assert {event.model: event.new for event in seen} == {left: "c", right: "b"}
-    left.text = "d"
-    assert seen[-1].new == "d"
+    with set_curdoc(document):
+        for text in "abc":
+            together()
+            left.text, right.text = text, "d"
+    assert not seen
+    (called,) = document.session_callbacks
+    called.callback()
+    assert {event.model: event.new for event in seen} == {left: "c", right: "d"}
+    left.text = "e"
+    assert seen[-1].new == "e"

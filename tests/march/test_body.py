@@ -210,16 +210,16 @@ def test_a_step_is_cut_at_a_touch_and_no_rounding_of_that_time_matters(start):
     indenter, material, motion, k_x = LIGHT[start]
     case = mdr.SlidingContact(indenter, material, 0.5, motion, mdr.SpringPull(k_x=k_x, m=0.0, c_x=0.0))
     _, scaled = at_hand(case, Resolution(16, 24, "full_slip", True))
-    flight, ways = scaled.normal.flight.copy(), []
+    flight, motions = scaled.normal.flight.copy(), []
     for change in (1 - 1e-12, 1.0, 1 + 1e-12):
         scaled.normal.flight[:] = change * flight
         other = replace(scaled)  # which has not been put in numbers yet
         vars(other)["normal"] = scaled.normal
         _, trace, solved = marched(other, 0.3, 2)
         assert solved
-        ways.append(trace.y)
+        motions.append(trace.y)
     assert flight.any()
-    assert_allclose(ways[::2], [ways[1]] * 2, rtol=0, atol=1e-10)
+    assert_allclose(motions[::2], [motions[1]] * 2, rtol=0, atol=1e-10)
 
 
 @pytest.mark.parametrize("at", [-3.0, 0.0, 1e-9, 7e2])

@@ -62,16 +62,16 @@ def test_a_combination_of_states_is_brought_into_the_cone_of_friction(shake):
     assert_allclose(stepper.within_friction(inside.copy()).e, inside.e, rtol=0)
 
 
-@pytest.mark.parametrize("ways", [1, 2], ids=["line", "plane"])
-def test_a_state_goes_to_other_springs_on_straight_lines_over_their_gaps(ways):
-    rng = np.random.default_rng(ways)
+@pytest.mark.parametrize("n_axes", [1, 2], ids=["line", "plane"])
+def test_a_state_goes_to_other_springs_on_straight_lines_over_their_gaps(n_axes):
+    rng = np.random.default_rng(n_axes)
     gap, on = rng.permutation(np.linspace(-3.0, 1.0, 7)), np.linspace(-3.5, 1.5, 12)  # some lie beyond
-    e, body = rng.normal(size=(2, 3, 7, ways)), rng.normal(size=(2, 2 * ways))  # two states with two arms
-    moved = on_other_springs(np.column_stack([e.reshape(2, -1), body]), gap, np.argsort(gap), on, ways)
-    assert_allclose(moved[:, -2 * ways :], body, rtol=0)
+    e, body = rng.normal(size=(2, 3, 7, n_axes)), rng.normal(size=(2, 2 * n_axes))  # two states with two arms
+    moved = on_other_springs(np.column_stack([e.reshape(2, -1), body]), gap, np.argsort(gap), on, n_axes)
+    assert_allclose(moved[:, -2 * n_axes :], body, rtol=0)
     order = np.argsort(gap)
     known = np.apply_along_axis(lambda one: np.interp(on, gap[order], one[order]), 2, e)
-    assert_allclose(moved[:, : -2 * ways], known.reshape(2, -1), rtol=1e-12)
+    assert_allclose(moved[:, : -2 * n_axes], known.reshape(2, -1), rtol=1e-12)
 
 
 @pytest.mark.parametrize("n", [1, 5])

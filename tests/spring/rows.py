@@ -124,7 +124,7 @@ class Row:
         return self.stepped(look=looks), looks
 
     def at_once(self, rates=None, each=False):
-        """All springs in one call: e, s, the answer, the lumped, and what each spring does if it is asked for, for
+        """All springs in one call: e, s, the answer, the lumped state, and, if asked for, what each spring does, for
         which all are followed from event to event. rates: other ones at the end than those of the parabolas.
         """
         e, s, end, n = self.e.copy(), self.s.copy(), self.from_then(self.h), self.gap.size

@@ -88,9 +88,9 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     stick under a light body at every iteration, `enclosed` finds them. In the plane both directions go `together` after
     the first iterations.
 
-    room: for e, s, and the lumped of `row` or `correct`. flight: here it only tells a light body along a line. The
-    others as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks for it, and
-    whether this was solved; e, s, of_body are updated.
+    room: for e, s, and the lumped state of `row`, or for `correct`. flight: here it only tells a light body along a
+    line. The others as of `march`. Returns path, area, moment, what springs do at the end, as far as a next step asks
+    for it, and whether this was solved; e, s, of_body are updated.
     """
     (T, modes, arms), (e_0, s_0, lumped) = law, room
     h, path, found = tools.times.h, here.path, False

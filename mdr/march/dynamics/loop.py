@@ -98,7 +98,7 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
     Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
-    # in the plane, where a row has no lumped, the room of `correct`: one more array costs a fifth of a step on a line
+    # in the plane, where there is no lumped state, room for `correct`: one more array costs a fifth of a step on a line
     lumped = np.zeros((s.shape[0], 1) if side is None else (4 + ROOM, 4))
     room = np.empty_like(e), np.empty_like(s), lumped
     for j in range(n_steps):

@@ -26,7 +26,7 @@ from mdr.tools.progress import Ticker, time_is_over
 TOLERANCE = 1e-6  #: of cof/mu_0, to which a periodic state is known
 ALIKE = 3.0  #: ratio of second differences; a slip velocity jumps, and bends otherwise, where springs touch and leave
 FINE = 65  #: places at which `least_between` looks at a polynomial; a parabola there misses 1e-6 of a second difference
-WITH_IT = 0.5  #: of what the pull moves: so much a spring may move with it, or lose, and still count as slipping as far
+WITH_IT = 0.5  #: of the distance of the pull: a spring whose extension changes by less has slipped about as far
 AT_ONCE = 2**17  #: steps between two looks at the clock, whose forces are kept until they are averaged
 
 
@@ -171,7 +171,7 @@ class Stepper:
         return cof.real, cof.imag
 
     def least_slip(self, trace: loop.Trace, cof: float) -> float:
-        """Least velocity along the pull of springs that slip all the time, in a period of this COF over mu_0;
+        """Least slip velocity, along the pull, in a period of this COF over mu_0, of springs that slip all the time;
         zero if some do not. A step in which contact begins counts as a whole, if it is not cut there.
         """
         if self.scaled.faces or not abs(1 - cof) <= EXACT:

@@ -102,7 +102,7 @@ class _Springs:
         return _real(self.stepper.period(self._state(x)).e)
 
     def moves(self, image: Array, x: Array) -> tuple[Array, Array]:
-        """The way on which a period that leads to this image would make them creep, and its length for each (n,)."""
+        """Displacement by which they would creep after a period that leads to this image, and its lengths (n,)."""
         move = self.series @ (image - x)
         return move, _length(self.roots * move)
 

@@ -24,6 +24,6 @@ class Orbit:
     """A state at the end of a period: periodic where it was solved for, or what waiting has led to."""
 
     state: MarchState
-    settling: Settling  #: COF of that period, and how far it may be from that of the exact periodic state
+    settling: Settling  #: its COF, and how far it may be from that of the exact periodic state
     least_slip: float = 0.0  #: least slip velocity along the pull, in that period, of springs that slip all the time
     motions: SlowMotions | None = None  #: the slow ones about it, where they are known

@@ -28,7 +28,7 @@ LATE = "springs have not yet slipped as far as the pull went"  #: why a state th
 
 @dataclass(frozen=True)
 class Settling:
-    """Answer of the windows."""
+    """COF that the windows tell, how far it may be from its limit, and whether it has settled."""
 
     mean: float  #: over the second half, by smooth weights
     spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell

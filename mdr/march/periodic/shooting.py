@@ -145,7 +145,8 @@ class Shooting:
         last = search.counts[SINCE] == search.counts[PERIODS] - 1  # the last period is that of the best state
         cofs = stepper.cof_of(self.trace)
         if last and (slip := self._slip_for_good(cofs[0])):
-            self._told(best, cofs, slip, np.inf, 0.0)
+            self._tell(best, cofs, slip, np.inf, 0.0)
+            self.is_close = True
             return aim._replace(over=True)
         if search.changes[LEAST] > search.changes[ENOUGH]:
             last = False
@@ -156,7 +157,7 @@ class Shooting:
             gain = self._measured()
         if not near or gain is None:
             return _Aim(best, CLOSE, over=close <= CLOSE)
-        spread = self._judged(cofs if last else None, close, gain)
+        spread = self._judge(cofs if last else None, close, gain)
         over = self.is_close or close <= CLOSEST
         return _Aim(search.states[BEST], close * min(0.01, stepper.tolerance / (SHARE * spread + 1e-300)), over)
 
@@ -201,7 +202,7 @@ class Shooting:
         drift /= np.sqrt(body.M or (1.0 if body.rigid else body.K))  # under a rigid pull that of the springs
         return least if AGES * drift < least < np.inf else 0.0
 
-    def _judged(self, cofs: tuple[float, float] | None, close: float, gain: float) -> float:
+    def _judge(self, cofs: tuple[float, float] | None, close: float, gain: float) -> float:
         """Take the best state for the periodic one. Returned is how far its COF may be from that of the exact one.
 
         cofs: of the last period that was marched, if that is its own.
@@ -217,13 +218,13 @@ class Shooting:
         spread = 2 * distance * self._length(search.states[BEST]) / stepper.mean_limit
         ends = MarchState(begin, self.s), MarchState(state, self.s)
         late = stepper.v > 0 and stepper.late(*ends, 1) > stepper.tolerance
-        self._told(state, cofs, stepper.least_slip(trace, cofs[0]), gain, spread, late)
+        self._tell(state, cofs, stepper.least_slip(trace, cofs[0]), gain, spread, late)
         settled = spread <= min(stepper.tolerance, SOLVED_TOLERANCE) and not late
         nearly_full = FULL < 1 - cofs[0] < SOLVED_TOLERANCE  # it has to be told from nothing
         self.is_close = bool(settled and (close <= CLOSE or not nearly_full))
         return spread
 
-    def _told(
+    def _tell(
         self, x: Array, cofs: tuple[float, float], least_slip: float, gain: float, spread: float, late: bool = False
     ) -> None:
         """Take a state for the one that is found. spread: bound on the error of its COF over mu_0."""

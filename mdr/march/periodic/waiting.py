@@ -76,7 +76,7 @@ class Waiting:
             self.advance(self.first_look)
             return self._ended(replace(self.assess(), settled=False, kind="unsettled"))
         self.advance(max(self.first_look, int(self.pre_sliding)))
-        self.most, self.solve_at = most, self.n
+        self.most, self.solve_at, self.over = most, self.n, False
         at = iterate(self._wait_on, lambda at: at.settling.settled or self.over, self._ended(self.assess()))
         if time_is_over() and not (at.settling.settled or self.over):
             return self._ended(replace(at.settling, why=f"the time limit is over after {self.n} periods"))
@@ -89,10 +89,12 @@ class Waiting:
             if (orbit := search(self.stepper, (self.state,))) is not None:
                 self.over = True
                 return orbit
+        if time_is_over():
+            return at
         why = ""
         if not self.stepper.solved:
             why = NO_STEP
-        elif self._is_late and self.scaled.drive.is_shaken and FEW * self._pre_sliding > self.most:
+        elif self._is_late and self.scaled.drive.is_shaken and FEW * self._pull_through > self.most:
             why = self._why_late
         elif self._may_settle_by(self.most):
             self.advance(max(4, self.n // 2))
@@ -125,12 +127,12 @@ class Waiting:
         return self.late > self.stepper.tolerance
 
     @cached_property
-    def _pre_sliding(self) -> float:
+    def _pull_through(self) -> float:
         return pre_sliding(self.scaled, self.stepper.v)
 
     @property
     def _why_late(self) -> str:
-        return f"after {self.n} periods {LATE}, which may take {self._pre_sliding:.2g} of them"
+        return f"after {self.n} periods {LATE}, which may take {self._pull_through:.2g} of them"
 
     def _is_full(self, cof: float) -> bool:
         """Whether next to nothing is missing in the COF, of what oscillations can take from it."""

@@ -56,7 +56,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
-    least_slip: float  #: smallest slip velocity along the pull of a spring in contact in that period [m/s]
+    least_slip: float  #: smallest slip velocity, along the pull, of the springs in contact in that period [m/s]
     mean_F_x: float  #: [N]
     mean_F_y: float  #: [N]
     mean_F_z: float  #: [N]
