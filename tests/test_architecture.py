@@ -198,7 +198,9 @@ def test_no_way_leads_through_a_wall(house, wall):
 
 
 def test_the_normal_motion_of_a_spring_has_no_friction_in_it(house):
-    """What closed forms use of a spring is `settle`; nothing that it reaches, by any import, knows friction."""
+    """What closed forms use of a spring is `settle`; nothing that it reaches, by any import, moves a spring by
+    friction: contact.py is handed None for it, and knows of a face but its limit.
+    """
     _, imports = house
     reached = set(reach(imports, ["mdr.spring.settle"]))
     assert "mdr.spring.contact" in reached

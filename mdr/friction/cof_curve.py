@@ -349,7 +349,7 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
 
 def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     """Friction of a case that has a closed form."""
-    if case.is_of_the_paper and not case.is_shaken:
+    if case.is_of_the_paper and not case.is_shaken:  # good to 1e-13, and several times faster than event by event
         known = average_friction(case, v_0)
         return Columns.exact(known.cof, known.cof_error, known.stick_share)
     cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)

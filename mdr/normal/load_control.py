@@ -228,7 +228,10 @@ def _anderson(
     u: NDArray[np.complex128],
     F_z0: float,
 ) -> tuple[NDArray[np.complex128], float]:
-    """Where least is missing, by corrections missing/weight of which the last are combined; and how much, over F_z0."""
+    """Where least is missing, by corrections missing/weight of which the last are combined; and how much, over F_z0.
+
+    No time limit ends it (tools/iterate.py), as what it finds is kept for other calls.
+    """
     tried: list[NDArray[np.complex128]] = []
     moves: list[NDArray[np.complex128]] = []
     best, least, known, since = u, np.inf, np.inf, 0

@@ -8,11 +8,12 @@ the material (law.py) a spring
 * *flies*: s and e recover without force, L[s] = L[e] = 0, until the indenter meets the surface again, z - gap = s.
 
 All is scaled: forces by the long-time stiffness, tangential lengths by mu_0 kappa, so that Coulomb's law is
-|L[e]| <= L[s]; a shear strength of the face adds to this limit (face.py).
+|L[e]| <= L[s]; a face with a shear strength has another limit (face.py).
 
 While it presses, friction moves e: a function of a stretch of contact that is handed in (line.py, disc.py), or None.
-What happens is exact from event to event, so that the only error of a step is that of the parabolas. Elastic springs,
-dashpots (Kelvin) and Maxwell arms are one text: what a material lacks is None, and compiled away.
+What happens is exact from event to event along a line, so that the only error of a step there is that of the parabolas;
+slip that turns (dragged.py) and a strength (face.py) are met to some order in the step. Elastic springs, dashpots
+(Kelvin) and Maxwell arms are one text: what a material lacks is None, and compiled away.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -158,8 +159,10 @@ def within(f, R):
 
 
 @_inline
-def rubbed(face, springs, rub, s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact: that of `rub`, for the limit L[s] or that of a face."""
+def friction_on_face(face, springs, rub, s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look):
+    """Friction of spring i over a stretch of contact, by `rub`. On a face with a strength `rub` is run with the
+    compression q whose force is the limit (face.py), and s is put back.
+    """
     if face is None:
         return rub(s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
     kept, x2 = tools.room.kept, springs.x2[i]
@@ -241,7 +244,7 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
                     normal_moment += w[i] * (done * A + B)
                 else:
                     z, x = (z_1, path.z_2), (path.x_1 + 2.0 * path.x_2 * done, path.x_2)
-                    of = rubbed(
+                    of = friction_on_face(
                         path.face,
                         springs,
                         rub,

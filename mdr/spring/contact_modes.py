@@ -1,4 +1,4 @@
-"""The contact modes of a spring; line.py says what ends each of them."""
+"""The contact modes of a spring; contact.py, line.py and disc.py say what ends each of them."""
 
 from enum import IntEnum
 
@@ -8,7 +8,7 @@ class State(IntEnum):
 
     FREE = 0  #: out of contact
     STICK = 1  #: its foot rests on the plane
-    SLIP = 2  #: slides forward, friction holds the indenter back
+    SLIP = 2  #: slides forward, friction holds the indenter back; in the plane in any direction
     SLIP_BACK = 3  #: slides backward, friction drives the indenter on
 
 

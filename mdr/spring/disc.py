@@ -2,7 +2,7 @@
 contact: a disc in the place of the interval of line.py.
 
 * *stick*: e goes with the top, L[e] is known, until its length comes to R;
-* *slip*: |L[e]| = R, along the slip velocity, which returns (dragged.py), until that velocity comes to zero.
+* *slip*: |L[e]| = R, along the slip velocity, which turns (dragged.py), until it comes to zero.
 
 Arms remember the slip, which depends on their memory: the two are brought in line with each other.
 """
@@ -281,9 +281,9 @@ def is_slow(t, T, arms):
 
 @_inline
 def slip_over(e, i, top, start, R, t, k, midway, G, T, arms, tools):
-    """Slip over a time, and the path on which it takes the end of the spring: a parabola with the true rates at both
-    ends, shifted so that the force is; on a slow dashpot so that what it yields is. The memory of arms and their slip
-    are brought in line with each other.
+    """Slip over a time, and the path of the end of the spring: a parabola with the true rates at both ends, shifted so
+    that |L[e]| = R at the end; on a slow dashpot so that the extension is what the force yields. The memory of arms and
+    their slip are brought in line with each other.
     """
     rate_0, rate_1 = top.p - start.vel * start.n, top.p + 2.0 * t * top.q
     v, moved = Cubic(start.v, 2.0 * G * top.q, 0.0j, 0.0j), Parabola(rate_0, 0.0j)
@@ -367,7 +367,7 @@ def slips(e, i, w, top, start, R, t, k, forced, G, T, modes, arms, tools, look):
 @_inline
 def even_part(R, more, t, shortest):
     """Part of a time t that slip is followed for at once, on the leash R + more, R a cubic: two nodes tell how far it
-    returns the spring only where it does not change much.
+    turns the spring only where it does not change much.
     """
     u, first = t, R.a + more
     while u > shortest:

@@ -1,4 +1,6 @@
-"""Energies of a spring over a stretch of a step in one mode, by a rule over its time: what a close look adds up."""
+"""Energies of a spring over a stretch of a step in one mode, which a close look adds up; disc.py has those of slip that
+turns.
+"""
 
 from __future__ import annotations
 

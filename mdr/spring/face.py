@@ -5,8 +5,9 @@ springs (Popov and Heß 2015). With a compression r of which L[r] = c, the limit
 compressed by q = coulomb s + r. So the friction of Coulomb (line.py, disc.py) is asked of q in the place of s.
 
 Over a stretch c is the parabola through its values at the begin, the middle and the end, and r the parabola of which it
-is the force. The root bends where the edge of contact passes. Where this advances, the spring sticks, so that nothing
-is missed; where it comes back, the spring slips, and of its force an area of the order 3/2 in the step is missed.
+is the force. The root bends where the edge of contact passes. Where this advances, the spring sticks, but for a time
+that `unseen` bounds (march/dynamics/limit.py); where it comes back, the spring slips, and of its force an area of the
+order 3/2 in the step is missed.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false

@@ -18,7 +18,7 @@ import numpy as np
 from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
 from mdr.spring.line import rub_line
-from mdr.spring.motion import hold
+from mdr.spring.motion import end_force, hold
 from mdr.spring.path import FAST, LENT, Path
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
@@ -112,9 +112,5 @@ def as_they_are(path, sticking, back, T, arms, tools, lumped, zd, xd):
     """
     h, part = tools.times.h, sticking + 2.0 * back
     p, q = sticking * path.x_1 - part * path.z_1, sticking * path.x_2 - part * path.z_2
-    end = lumped[0, 0] + h * (p + q * h) + T * (sticking * xd - part * zd)
     area, moment = hold(lumped, 0, p, q, h, STEP, T, tools, arms)
-    if arms is not None:
-        for j in range(arms.rho.size):
-            end += arms.rho[j] * lumped[1 + j, 0]
-    return area, moment, end
+    return area, moment, end_force(lumped, 0, sticking * xd - part * zd, T, arms)

@@ -16,7 +16,7 @@ STEP, PART = 0, 1  #: rows of Times: of the whole step, and of the part of it th
 
 
 class Times(NamedTuple):
-    """Known once for a step: what its time makes of arms and modes. The row of a part is filled as the step goes."""
+    """Factors of arms and modes over the step, known once, and over the part of it that is followed now."""
 
     h: float  #: length of the step
     arms: Array  #: (2, 9, J) what arms come to that are held on p t + q t²: see `fill`

@@ -1,6 +1,7 @@
 """A step of the body together with its springs: it moves as their force makes it, and they move with it (`stepped`).
 
-Scaled form (dimensionless.py). What it does with mass, and light, without or with little of it, is said in body.py.
+Scaled form (dimensionless.py). What it does with mass, and light, without one or ringing too fast for the steps, is
+said in body.py.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false

@@ -1,7 +1,8 @@
 """The scaled form of a sliding contact: what is left of it when units, mu_0 and the moduli are divided out.
 
-Time is omega t, normal lengths are in du_z, tangential lengths in mu_0 kappa du_z, stiffnesses in that of the whole
-array. In this form Coulomb's law has no coefficient and everything is a function of
+Time is omega t, normal lengths are in du_z, tangential lengths in mu_0 kappa du_z (with a shear strength in more, see
+Units), stiffnesses in that of the whole array. In this form Coulomb's law alone has no coefficient, and everything is a
+function of
 
     depth ratio u_z0/du_z,  v = v_0/(mu_0 kappa omega du_z),  T = omega tau,  body/contact stiffness ratios,  shape.
 """

@@ -1,9 +1,10 @@
 """The compiled march: springs and body step by step, period by period.
 
 Scaled form (dimensionless.py): time is omega t, normal lengths are in du_z, tangential ones in mu_0 kappa du_z,
-stiffnesses in that of the array. Ways, extensions and tangential forces are real numbers where all moves along the
-pull, and complex ones, along and across it, where something moves across it too. A state are extensions (1 + J, n) of
-the springs and their arms, and the body (body.py). The compressions go beside it, as friction has no part in them.
+stiffnesses in that of the array. Displacements, extensions and tangential forces are real numbers where all moves
+along the pull, and complex ones, along and across it, where something moves across it too. A state are extensions
+(1 + J, n) of the springs and their arms, and the body (body.py). The compressions go beside it, as friction has no part
+in them.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false

@@ -127,7 +127,7 @@ class _Springs:
         image = self.marched(x)
         move, change = self.moves(image, x)
         worse = ~(change <= at.change)
-        if worse.any():  # less of that step, and at last none: on to where it was marched to
+        if worse.any():  # less of that step, and at last none: on to where it would creep
             part = np.where(worse, SHORTER * at.part, 1.0)
             shorter = np.where(part >= SHORTEST, self.inside(at.place + part * at.step), at.after)
             x = np.where(worse, shorter, x)

@@ -1,7 +1,8 @@
 """One march of a contact, brought to its steady state.
 
 The periodic state is searched for from full slip (search.py). Where none is found, and from rest, the march goes on
-until the COF settles (waiting.py). Elastic springs under a rigid pull need two periods.
+until the COF settles (waiting.py). Springs under a rigid pull do not know of each other: along a line elastic ones need
+two periods from full slip, others are solved for one by one (each_alone.py).
 """
 
 from __future__ import annotations
