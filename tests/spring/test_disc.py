@@ -117,11 +117,11 @@ def test_a_slow_dashpot_yields_what_the_force_gives_it(law):
     assert_allclose(after(1), after(40), atol=0.02 * 0.05 * H)
 
 
-def test_a_force_against_the_way_has_a_direction_however_straight_it_is():
-    """It turns to the way, or stays where rounding hides which way it turns; the reciprocal of nothing is not taken."""
-    way, aside = np.array([30.0, 40.0, 1e3, 1e6]), 10.0 ** np.arange(-170.0, 0.0, 0.5)
+def test_a_force_against_the_path_has_a_direction_however_straight_it_is():
+    """It turns to the path, or stays where rounding hides to which side; the reciprocal of nothing is not taken."""
+    path, aside = np.array([30.0, 40.0, 1e3, 1e6]), 10.0 ** np.arange(-170.0, 0.0, 0.5)
     forces = (-1.0 + 1j * aside) / np.hypot(1.0, aside)
-    turned = np.array([_turned(n, complex(x, 0.0)) for x in way for n in forces.tolist()])
+    turned = np.array([_turned(n, complex(x, 0.0)) for x in path for n in forces.tolist()])
     assert_allclose(np.abs(turned), 1.0, atol=1e-9)
     assert (turned.real > 0).any()
     assert (turned.real < 0).any()

@@ -64,7 +64,7 @@ class Resolution(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class MarchEnd:
-    """The end of a march, settled or not, before the detailed look at its last periods; in scaled form."""
+    """The end of a march, settled or not, before or after the close look at its last periods; in scaled form."""
 
     case: SlidingContact
     v_0: float
@@ -72,7 +72,7 @@ class MarchEnd:
     springs: SpringArray
     stepper: Stepper
     orbit: Orbit  #: state and COF at the end
-    n_periods: int  #: marched so far, without one that was looked at closely
+    n_periods: int  #: marched so far
     waited: Waiting | None  #: the march that led here; None where the periodic state was solved for
     awaits: bool  #: whether n_periods were asked for, so that periods that are looked at count for settling too
     error: float | None = None  #: bound on that of the COF, over mu_0; None where no companion tells

@@ -78,9 +78,9 @@ class Waiting:
         self.advance(max(self.first_look, int(self.pre_sliding)))
         self.most, self.solve_at, self.over = most, self.n, False
         at = iterate(self._wait_on, lambda at: at.settling.settled or self.over, self._ended(self.assess()))
-        if time_is_over() and not (at.settling.settled or self.over):
-            return self._ended(replace(at.settling, why=f"the time limit is over after {self.n} periods"))
-        return at
+        if at.settling.settled or self.over:
+            return at
+        return self._ended(replace(at.settling, why=f"the time limit is over after {self.n} periods"))
 
     def _wait_on(self, at: Orbit) -> Orbit:
         """The end after half as many periods again, or a periodic state; the same, over, where more do not help."""
