@@ -34,12 +34,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.indenters.base import Indenter
 from mdr.materials import Material
-from mdr.normal.indentation_kernels import Row, force_of
+from mdr.normal.indentation_kernels import Row, force_of, step
 from mdr.normal.load_control import static_depths
-from mdr.spring.contact import Each, Springs, press
 from mdr.spring.law import N_PHI, Law, law_of, phi_of
-from mdr.spring.path import Path
-from mdr.spring.times import Tools, tools_for
 from mdr.tools.arrays import EPS, EXACT, SAME, Array
 from mdr.tools.checks import count, finite_array, instance
 from mdr.tools.messages import short
@@ -174,7 +171,7 @@ def _from_depth(indenter: Indenter, material: Material, t: Array, u_z: Array, n:
     u, dt = (u_z / deepest).tolist(), np.diff(t, prepend=t[0]).tolist()
     s, was, answers, seen = springs.at_rest, 0.0, [], []
     for k in range(t.size):
-        s = springs.moved(s, was, u[k], tools_for(springs.law, dt[k]))
+        s = springs.moved(s, was, u[k], dt[k])
         sides = [(u[j] - u[j - 1]) / dt[j] for j in (k, k + 1) if j < t.size and dt[j] > 0]
         sides = sides if sides and material.tau > 0 else [0.0]  # only a dashpot feels the velocity
         answers.append(np.mean([springs.force(s, u[k], v) for v in sides], axis=0))
@@ -244,14 +241,14 @@ def _depths(
     depth, radius, seen = np.zeros(t.size), np.zeros(t.size), []
     s, u, a, v, before = springs.at_rest, 0.0, 0.0, 0.0, 0.0
     for k, (dt, F) in enumerate(zip(np.diff(t, prepend=t[0]).tolist(), F_z.tolist(), strict=True)):
-        step, was = tools_for(springs.law, dt), u
+        was = u
         if F == before == 0 and k >= known.size:
-            s, u = springs.lifted(s, step)
+            s, u = springs.lifted(s, dt)
         elif dt > 0 or T == 0:
-            u = float(known[k]) if k < known.size else springs.depth_under(max(F, 10 * off), off, s, u, v, a, step)
-            s = springs.moved(s, was, u, step)
+            u = float(known[k]) if k < known.size else springs.depth_under(max(F, 10 * off), off, s, u, v, a, dt)
+            s = springs.moved(s, was, u, dt)
             if F == 0 and k >= known.size:
-                s, u = springs.lifted(s, tools_for(springs.law, 0.0))
+                s, u = springs.lifted(s, 0.0)
         v = (u - was) / dt if dt > 0 else v
         a = springs.force(s, u, v)[1] if F > 0 else 0.0
         depth[k], radius[k], before = u, a, F
@@ -307,26 +304,23 @@ class _Springs:
         """The state of a surface that was never touched."""
         return np.zeros((1 + self.rho.size, self.row.g.size))
 
-    def moved(self, s: Array, u_0: float, u_1: float, step: Tools) -> Array:
-        """The springs after the indenter has moved from u_0 to u_1 in a step; at once in one without length."""
-        s, g, each = s.copy(), self.row.g, Each(*np.empty((3, self.row.g.size)))
-        if step.times.h == 0:
+    def moved(self, s: Array, u_0: float, u_1: float, dt: float) -> Array:
+        """The springs after the indenter has moved from u_0 to u_1 in a time; at once in no time."""
+        s, g = s.copy(), self.row.g
+        if dt == 0:
             moves = (s[0] < u_1 - g) | ((self.law.T == 0) & (s[0] <= u_0 - g))  # a dashpot does not follow back
             s[1:, moves] += (u_1 - g - s[0])[moves]
             s[0, moves] = (u_1 - g)[moves]
-            press(
-                s, Springs(g, g), Path(u_1, 0.0, 0.0, 0.0, 0.0), 0.0, *self.law, step, each
-            )  # what has no load left is free
+            step(s, g, u_1, 0.0, 0.0, self.law)  # what has no load left is free
         else:
-            rate = (u_1 - u_0) / step.times.h
-            press(s, Springs(g, g), Path(u_0, rate, 0.0, 0.0, 0.0), rate, *self.law, step, each)
-            np.copyto(s[0], u_1 - g, where=each.pressed_for > 0)
+            presses = step(s, g, u_0, (u_1 - u_0) / dt, dt, self.law) > 0
+            np.copyto(s[0], u_1 - g, where=presses)
         return s
 
-    def lifted(self, s: Array, step: Tools) -> tuple[Array, float]:
-        """The springs after a step without indenter, and the depth at which it lies on them then."""
+    def lifted(self, s: Array, dt: float) -> tuple[Array, float]:
+        """The springs after a time without indenter, and the depth at which it lies on them then."""
         above = float(np.min(s[0] + self.row.g)) - 1.0
-        s = self.moved(s, above, above, step)
+        s = self.moved(s, above, above, dt)
         return s, float(np.min(s[0] + self.row.g))
 
     def force(self, s: Array, u: float, v: float) -> tuple[float, float]:
@@ -334,16 +328,14 @@ class _Springs:
         F, a = force_of(s, u, v, self.row, self.law.T, self.law.arms)
         return self.modulus * F, a
 
-    def depth_under(self, F: float, off: float, s: Array, u: float, v: float, a: float, step: Tools) -> float:
-        """Depth after a step from u at which the force is F [N]; v and a [m] are what rate and radius were before."""
+    def depth_under(self, F: float, off: float, s: Array, u: float, v: float, a: float, dt: float) -> float:
+        """Depth after a time from u at which the force is F [N]; v and a [m] are what rate and radius were before."""
 
         def excess(end: float) -> float:
-            return (
-                self.force(self.moved(s, u, end, step), end, (end - u) / step.times.h if step.times.h else 0.0)[0] - F
-            )
+            return self.force(self.moved(s, u, end, dt), end, (end - u) / dt if dt else 0.0)[0] - F
 
-        stiffness = 1 + float(self.rho.sum()) + (self.law.T / step.times.h if step.times.h else 0.0)
-        return _root(excess, u + v * step.times.h, 2 * max(a, 1e-6 * self.row.x[-1]) * self.modulus * stiffness, off)
+        stiffness = 1 + float(self.rho.sum()) + (self.law.T / dt if dt else 0.0)
+        return _root(excess, u + v * dt, 2 * max(a, 1e-6 * self.row.x[-1]) * self.modulus * stiffness, off)
 
     def rate_under(self, F: float, off: float, s: Array, u: float, v: float, a: float) -> float:
         """Rate at which the force is F [N]: dashpots, all of one rate, take up what the rest does not carry."""

@@ -1,4 +1,4 @@
-"""The sum over a row of springs that stand at depths g of the profile: force and radius of a contact, compiled.
+"""A row of springs at depths g of the profile, compiled: its step, and the sum over it, force and radius of a contact.
 
 The load q of the springs that press is taken as linear in g between two nodes. By parts
 
@@ -13,6 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mdr.spring.contact import Each, Springs, press
+from mdr.spring.path import Path
+from mdr.spring.times import new_tools
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
 
@@ -25,6 +28,18 @@ class Row(NamedTuple):
     power: Array  #: (n - 1,) x - x[0] ~ g^power in a cell
     mean: Array  #: (n - 1,) mean of x over a cell
     better: Array  #: (n - 1,) the same, extrapolated from two cells as one
+
+
+@compiled(nogil=True, error_model="numpy")
+def step(s, g, u, v, h, law):
+    """Move the springs s (1 + J, n), which are updated, under an indenter that goes from the depth u at the rate v for
+    a time: how long each has pressed at its end, (n,), over that time.
+    """
+    T, modes, arms = law
+    each = Each(np.empty(g.size), np.empty(g.size), np.empty(g.size))
+    tools = new_tools(h, modes, arms, 0.0, 0)
+    press(s, Springs(g, g, None), Path(u, v, 0.0, 0.0, 0.0, None), v, T, modes, arms, tools, each)
+    return each.pressed_for
 
 
 @compiled(nogil=True, error_model="numpy")

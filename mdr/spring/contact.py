@@ -51,10 +51,10 @@ from mdr.spring.path import (
 )
 from mdr.spring.times import PART, STEP, fill
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled, inner
+from mdr.tools.jit import inner
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
-_call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
+_lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 
 MOST_EVENTS = 100  #: of a spring in one step or stretch of contact; what comes after the last would be left out
 
@@ -310,7 +310,7 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
     )
 
 
-@_call
+@_lent
 def press(s, springs, path, zd, T, modes, arms, tools, each):
     """The normal part of `row` (row.py) alone; s is updated."""
     return one_row(None, None, s, None, springs, path, zd, 0.0, T, modes, arms, tools, None, each, None)

@@ -11,7 +11,7 @@ import numpy as np
 from mdr.spring.law import phi_of
 from mdr.spring.path import FAST, LENT, OWN, along
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled, inner
+from mdr.tools.jit import inner
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 _own = inner(error_model="numpy", fastmath=FAST, **OWN)
@@ -51,7 +51,7 @@ class Nodes(NamedTuple):
     decay: Array  #: (N, K) exp(-mu_k u)
 
 
-@compiled(error_model="numpy", nogil=True)
+@inner(error_model="numpy", **OWN)
 def nodes_of(t, modes, arms):
     """Gauss's rule over a time for energies of springs in one mode: exact for elastic ones, to rounding for others, on
     parts of the time that double in length where something decays fast.

@@ -23,13 +23,13 @@ from mdr.spring.path import FAST, LENT, Path
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.compiler import Complex, NoneType, overload
-from mdr.tools.jit import compiled, inner
+from mdr.tools.jit import inner
 from mdr.tools.linked import LINKED
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 # inlined by LLVM: a call would copy its arguments, arrays in named tuples, word by word, as costly as the springs
 _LENT: Any = {"forceinline": True, "error_model": "numpy", "fastmath": FAST, **LENT, **LINKED}
-_call = compiled(error_model="numpy", nogil=True, fastmath=FAST, **LENT)
+_lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 
 
 def row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
@@ -101,7 +101,7 @@ def both(a, b):
     return Answer(*force, *stick, *normal, a.pressed + b.pressed)
 
 
-@_call
+@_lent
 def as_they_are(path, sticking, back, T, arms, tools, lumped, zd, xd):
     """The force over a step in which every spring keeps the mode that it had at the end of the last one, less that of
     full slip forward. A spring that sticks bears L[e] - L[s] more, one that slips back -2 L[s]. As L is linear and the

@@ -53,7 +53,7 @@ def settled(gap: Array, w: Array, z: Array, z_dot: Array, law: Law, each: bool =
 
     each: whether force and pressed_for are asked for.
     """
-    n_t, n = z.size - 1, gap.size
+    n_t, n, w = z.size - 1, gap.size, np.array(w)  # not a read-only one, for which all would be compiled once more
     sums, none = np.empty((5, n_t)), np.empty((0, n))
     s = np.zeros((1 if law.arms is None else 1 + law.arms.rho.size, n))
     s[0] = np.maximum(z[0] - gap, 0)

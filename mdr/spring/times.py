@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.spring.law import Law, phi_of
+from mdr.spring.law import phi_of
 from mdr.spring.path import FAST, LENT
 from mdr.tools.arrays import Array
-from mdr.tools.jit import compiled, inner
+from mdr.tools.jit import inner
 
 STEP, PART = 0, 1  #: rows of Times: of the whole step, and of the part of it that is being followed
 
@@ -40,7 +40,7 @@ class Tools(NamedTuple):
     room: Room
 
 
-@compiled(forceinline=True, error_model="numpy", nogil=True, fastmath=FAST, **LENT)
+@inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 def fill(t, modes, arms, times, k):
     """Fill row k of Times for a time t: of x_j, p and q the arm after it takes the parts arms[k, 0:3], the area of
     its force over the time arms[k, 3:6], and its moment arms[k, 6:9].
@@ -71,7 +71,7 @@ def times_of(h, modes, arms):
     return times
 
 
-@compiled(error_model="numpy", nogil=True, fastmath=FAST)
+@inner(error_model="numpy", fastmath=FAST)
 def new_tools(h, modes, arms, zero, n):
     """Tools of a step of length h, for extensions of the type of `zero`, and rows of n springs with friction."""
     times = times_of(h, modes, arms)
@@ -85,9 +85,3 @@ def new_tools(h, modes, arms, zero, n):
 def tools_of(h, modes, arms, tools):
     """The tools of another step, with the same room."""
     return Tools(times_of(h, modes, arms), tools.room)
-
-
-def tools_for(law: Law, h: float, n: int = 0, in_plane: bool = False) -> Tools:
-    """Tools of a law, for steps of length h, and rows of n springs with friction along a line or in the plane."""
-    (*times,), (*room,) = new_tools(float(h), law.modes, law.arms, 0j if in_plane else 0.0, n)
-    return Tools(Times(*times), Room(*room))

@@ -231,7 +231,7 @@ def test_a_zero_beside_a_kink_is_found_from_afar(at):
     for _ in range(60):
         if abs(f(x)) <= 1e-13 * (1 + abs(at)):
             break
-        x = float(next_place(x, f(x), 4.0, ends))
+        x = float(next_place.py_func(x, f(x), 4.0, ends))
     assert_allclose(x, at, rtol=0, atol=1e-13 * (1 + abs(at)) / 1.1e-2)  # over the least slope beside the zero
 
 

@@ -4,12 +4,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mdr.spring import contact, energies, times
 from mdr.spring import row as of
-from mdr.spring.contact import Each, Look, Springs, press
-from mdr.spring.energies import LEAST_SLIP, N_SUMS, nodes_of
+from mdr.spring.contact import Each, Look, Springs
+from mdr.spring.energies import LEAST_SLIP, N_SUMS
 from mdr.spring.law import law_of
 from mdr.spring.path import Path
-from mdr.spring.times import tools_for
 from mdr.tools.jit import compiled
 
 MATERIALS = {
@@ -23,10 +23,27 @@ MATERIALS = {
 }
 
 
-@compiled(nogil=True, error_model="numpy")
-def row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
-    """The row of the library, which compiled functions alone may call."""
-    return of.row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
+def for_python(function):
+    """A function of the library that compiled ones alone may call."""
+
+    @compiled(nogil=True, error_model="numpy")
+    def call(*args):
+        return function(*args)
+
+    return call
+
+
+# row is asked alike in all tests, with the lumped state along a line, and with each spring in the plane or beside a
+# look: every other set of what is None would be compiled once more
+row, press, as_they_are, nodes_of, _new_tools = map(
+    for_python, (of.row, contact.press, of.as_they_are, energies.nodes_of, times.new_tools)
+)
+
+
+def tools_for(law, h, n=0, in_plane=False):
+    """Tools of a law, for steps of length h, and rows of n springs with friction along a line or in the plane."""
+    (*of_step,), (*room,) = _new_tools(float(h), law.modes, law.arms, 0j if in_plane else 0.0, n)
+    return times.Tools(times.Times(*of_step), times.Room(*room))
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,25 +120,27 @@ class Row:
     def stepped(self, parts=1, look=None):
         """e, s, and of each spring area and moment of the tangential force, and how long it stuck, all at the end."""
         e, s, sums, h = self.e.copy(), self.s.copy(), np.zeros((3, self.gap.size)), self.h / parts
-        tools = tools_for(self.law, h, 1)
+        tools, lumped, each = tools_for(self.law, h, 1), np.empty((s.shape[0], 1)), look and Each(*np.empty((3, 1)))
         for part in range(parts):
             path, last = self.from_then(part * h), self.from_then((part + 1) * h)
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
                 spring, rates = Springs(self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
-                of = row(two, one, spring, path, *rates, *self.law, tools, None, None, look and look[i])
+                of = row(two, one, spring, path, *rates, *self.law, tools, lumped, each, look and look[i])
                 sums[:, i] += of.area, of.moment + part * h * of.area, of.stuck
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
 
     def looked_at(self):
         """The same with a close look at each spring."""
-        n = self.gap.size
-        nodes = nodes_of(self.h, *self.law[1:])
-        looks = [Look(nodes, np.zeros(N_SUMS), np.zeros(4), *np.zeros((3, 1))) for _ in range(n)]
-        for look in looks:
-            look.sums[LEAST_SLIP] = np.inf
+        looks = [self.look_at(1) for _ in self.gap]
         return self.stepped(look=looks), looks
+
+    def look_at(self, n):
+        """Room for a look at n springs."""
+        look = Look(nodes_of(self.h, *self.law[1:]), np.zeros(N_SUMS), np.zeros(4), *np.zeros((3, n)))
+        look.sums[LEAST_SLIP] = np.inf
+        return look
 
     def at_once(self, rates=None, each=False):
         """All springs in one call: e, s, the answer, the lumped state, and, if asked for, what each spring does, for
@@ -129,8 +148,9 @@ class Row:
         """
         e, s, end, n = self.e.copy(), self.s.copy(), self.from_then(self.h), self.gap.size
         tools, lumped = tools_for(self.law, self.h, n), np.full((s.shape[0], 1), np.nan)
-        seen, rates = Each(*np.empty((3, n))) if each else None, rates or (end.z_1, end.x_1)
-        of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, lumped, seen, None)
+        seen, look = (Each(*np.empty((3, n))), self.look_at(n)) if each else (None, None)
+        rates = rates or (end.z_1, end.x_1)
+        of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, lumped, seen, look)
         return e, s, of, lumped, seen
 
     def pressed(self):

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from rows import row
+from rows import nodes_of, row, tools_for
 
 from mdr.spring.contact import Each, Look, Springs
 from mdr.spring.dragged import turned_straight
-from mdr.spring.energies import N_SUMS, nodes_of
+from mdr.spring.energies import N_SUMS
 from mdr.spring.law import law_of
 from mdr.spring.path import Path
-from mdr.spring.times import tools_for
 from mdr.tools.jit import compiled
 
 LAWS = {"elastic": law_of(0.0), "kelvin": law_of(0.4), "two arms": law_of(0.0, (1.0, 0.5), (1.0, 5.0))}
@@ -35,8 +34,14 @@ def some_springs(law, rng, n=40):
 
 def answer(law, s, e, gap, w, path, h, rates=None):
     """That of the row in the plane; s and e are updated. rates: other ones at the end than those of the parabolas."""
-    rates = rates or (path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2)
-    return row(s, e, Springs(gap, w), path, *rates, *law, tools_for(law, h, gap.size, in_plane=True), None, None, None)
+    return answer_and_springs(law, s, e, gap, w, path, h, rates)[0]
+
+
+def answer_and_springs(law, s, e, gap, w, path, h, rates=None):
+    """The same, and what each spring does."""
+    rates, n = rates or (path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2), gap.size
+    tools, each = tools_for(law, h, n, in_plane=True), Each(np.empty(n), np.empty(n, complex), np.empty(n))
+    return row(s, e, Springs(gap, w), path, *rates, *law, tools, None, each, None), each
 
 
 def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
@@ -166,7 +171,8 @@ def test_along_one_line_it_is_the_row_along_a_line(law, tolerance, sign):
     of, _, after = stepped(law, (gap, w, s, e), sign * 20.0, 10.0)
     s_1, e_1, path = s.copy(), e.real.copy(), Path(0.0, 0.05, 0.0, sign * 20.0, 10.0)
     rates = 0.05, sign * 20.0 + 20.0 * H
-    known = row(s_1, e_1, Springs(gap, w), path, *rates, *law, tools_for(law, H, gap.size), None, None, None)
+    lumped = np.empty((s_1.shape[0], 1))
+    known = row(s_1, e_1, Springs(gap, w), path, *rates, *law, tools_for(law, H, gap.size), lumped, None, None)
     assert_allclose(after.imag, 0.0, atol=1e-15)
     assert_allclose(after.real, e_1, atol=tolerance)
     assert_allclose(np.real(of._replace(back=0.0)), known._replace(back=0.0), atol=tolerance)
@@ -234,13 +240,12 @@ def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(law):
         rates = rng.uniform(-2, 1), complex(*rng.normal(0, 3, 2))  # at the end, not those of the parabolas
         nodes, tools = nodes_of(H, law.modes, law.arms), tools_for(law, H, gap.size, in_plane=True)
         look = Look(nodes, np.zeros(N_SUMS), np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
-        of, each = answer(law, s_1, e_1, gap, w, path, H, rates), Each(np.empty(n), np.empty(n, complex), np.empty(n))
+        of, each_1 = answer_and_springs(law, s_1, e_1, gap, w, path, H, rates)
+        each = Each(np.empty(n), np.empty(n, complex), np.empty(n))
         known = row(s_2, e_2, Springs(gap, w), path, *rates, *law, tools, None, each, look)
         assert len(set(look.mode)) > 1
         assert_allclose(s_1, s_2, rtol=0, atol=1e-14)
         assert_allclose(e_1, e_2, rtol=0, atol=3e-14)
         assert_allclose(of, known, rtol=0, atol=3e-14)
-        each_1 = Each(np.empty(n), np.empty(n, complex), np.empty(n))
-        row(s.copy(), e.copy(), Springs(gap, w), path, *rates, *law, tools, None, each_1, None)
         for one, other in zip(each_1, each, strict=True):
             assert_allclose(one, other, rtol=0, atol=1e-13)

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from rows import MATERIALS
+from rows import MATERIALS, nodes_of, tools_for
 
-from mdr.spring.energies import nodes_of
 from mdr.spring.face import face_later, raise_to_limit, strength, strengths
 from mdr.spring.law import law_of
 from mdr.spring.motion import hold
 from mdr.spring.path import Face
-from mdr.spring.times import STEP, tools_for
+from mdr.spring.times import STEP
 from mdr.tools.jit import compiled
 
 FACE, H = Face(0.3, 1.2, -0.4, 0.7), 0.2

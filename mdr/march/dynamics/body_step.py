@@ -19,9 +19,8 @@ from mdr.spring.motion import glassy
 from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path
 from mdr.spring.row import as_they_are, row
 from mdr.spring.times import tools_of
-from mdr.tools.jit import compiled, inner
+from mdr.tools.jit import inner
 
-_jit = compiled(nogil=True, error_model="numpy", fastmath=FAST)
 _inner = inner(error_model="numpy", fastmath=FAST, **OWN)
 _lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
@@ -326,7 +325,7 @@ def enclosed(e, s, room, of_body, body, springs, here, law, tools):
     return one
 
 
-@_jit
+@_lent
 def next_place(x, f, most, ends):
     """Next place to look for the zero of a function, f at x, that rises by no more than `most`: ever farther until its
     sign has changed, then by regula falsi (the Pegasus method).

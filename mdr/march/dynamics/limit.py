@@ -16,7 +16,6 @@ from mdr.spring.contact import Springs
 from mdr.spring.face import Faces
 from mdr.spring.law import Law
 from mdr.spring.settle import NormalPeriod
-from mdr.spring.times import tools_for
 from mdr.tools.arrays import Array
 
 SEEN = 4.0  #: steps that the stick of a spring at the edge has to last for steps to see it
@@ -49,18 +48,11 @@ class Limit:
         e[0] += strength
         if law.modes is not None:  # what a period leaves of a difference is forgotten mode by mode
             after, left = e.copy(), np.exp(-2 * np.pi * law.modes.mu)
-            _full_slip(after, normal.s.copy(), springs, z, z_dot, law, faces, sums)
+            full_slip(after, normal.s.copy(), springs, z, z_dot, law, faces, sums)
             e += after - e + law.modes.out @ ((left / (1 - left))[:, None] * law.modes.into) @ (after - e)
-        _full_slip(e.copy(), normal.s.copy(), springs, z, z_dot, law, faces, sums)
+        full_slip(e.copy(), normal.s.copy(), springs, z, z_dot, law, faces, sums)
         greatest = faces.coulomb * deepest + np.sqrt(np.maximum(faces.a2[:, 0].max() - springs.x2, 0.0))
         return cls(e, np.maximum(e[0], 0.0), greatest, *sums)
-
-
-def _full_slip(
-    e: Array, s: Array, springs: Springs, z: Array, z_dot: Array, law: Law, faces: Faces, sums: Array
-) -> None:
-    tools = tools_for(law, 2 * np.pi / (z.size - 1))
-    full_slip(e, s, springs, z, z_dot, *law, tools, faces, sums)
 
 
 def unseen(faces: Faces | None, rate: Array, v: float, modulus: float, limit: Limit) -> float:

@@ -19,11 +19,11 @@ from mdr.march.dynamics.body_step import Here, Last, follow, later, note, steppe
 from mdr.march.dynamics.broyden import ROOM
 from mdr.spring.contact import Look
 from mdr.spring.copies import copy
-from mdr.spring.energies import SHEAR_WORK, Nodes, nodes_of
+from mdr.spring.energies import SHEAR_WORK, nodes_of
 from mdr.spring.face import Faces, face_in
 from mdr.spring.path import FAST, LENT, OWN, Path, along
 from mdr.spring.row import row
-from mdr.spring.times import tools_of
+from mdr.spring.times import new_tools, tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled, inner
 
@@ -70,7 +70,6 @@ class Trace(NamedTuple):
 class Seen(NamedTuple):
     """Record that a close look at a period fills, of n_t steps and n springs; f and e are vectors in the plane."""
 
-    nodes: Nodes  #: over a step
     sums: Array  #: (N_SUMS,)
     F: Array  #: (n_t, 4) at the end of each step: force along and normal, least slip velocity, force across
     mode: Array  #: (n_t or 0, n) of each spring
@@ -126,11 +125,12 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
 
 
 @_jit
-def full_slip(e, s, springs, z, z_dot, T, modes, arms, tools, faces, sums):
+def full_slip(e, s, springs, z, z_dot, law, faces, sums):
     """A period of springs that a pull drags which is faster than any of them: e, s (1 + J, n) are updated, sums
     (3, n_t) filled with area, moment and end of the force of each step.
     """
-    h = tools.times.h
+    h, (T, modes, arms) = 2.0 * np.pi / (z.size - 1), law
+    tools = new_tools(h, modes, arms, 0.0, springs.gap.size)
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, FASTER, 0.0, face_in(faces, k))
@@ -139,10 +139,11 @@ def full_slip(e, s, springs, z, z_dot, T, modes, arms, tools, faces, sums):
 
 
 @_jit
-def look(e, s, springs, motion, law, tools, trace, seen):
+def look(e, s, springs, motion, law, trace, seen):
     """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
     T, modes, arms = law
-    h, n, kept = tools.times.h, springs.gap.size, seen.mode.shape[0]
+    h, n, kept = 2.0 * np.pi / (motion.z.size - 1), springs.gap.size, seen.mode.shape[0]
+    tools, all_of_it = new_tools(h, modes, arms, 0.0 * e[0, 0], n), nodes_of(h, modes, arms)
     mode, f_z, f, F = np.empty(n), np.empty(n), np.empty_like(e[0]), np.empty(4)
     for k in range(motion.z.size - 1):
         path = path_of(motion, k, h)
@@ -150,9 +151,9 @@ def look(e, s, springs, motion, law, tools, trace, seen):
             t, x_1, x_2 = trace.parts[k, part, 0].real, trace.parts[k, part, 1], trace.parts[k, part, 2]
             if t == 0.0:
                 continue
-            now, nodes, here = tools, seen.nodes, Path(path.z_0, path.z_1, path.z_2, x_1, x_2, path.face)
+            now, nodes, here = tools, all_of_it, Path(path.z_0, path.z_1, path.z_2, x_1, x_2, path.face)
             if t < h:
-                now, nodes = tools_of(t, law.modes, law.arms, tools), nodes_of(t, law.modes, law.arms)
+                now, nodes = tools_of(t, modes, arms, tools), nodes_of(t, modes, arms)
             path = later(here, t)
             zd, xd = path.z_1, path.x_1
             if part == 1:

@@ -18,8 +18,7 @@ from mdr.march.dynamics.dimensionless import AxisMotion, ScaledContact
 from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
-from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, N_SUMS, SHAKE_WORK, STICK_IMPULSE, nodes_of
-from mdr.spring.times import tools_for
+from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, N_SUMS, SHAKE_WORK, STICK_IMPULSE
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import Ticker, time_is_over
 
@@ -188,18 +187,16 @@ class Stepper:
         scaled, n, n_steps = self.scaled, self.scaled.springs.gap.size, self.scaled.drive.steps
         before, state = state, state.copy()
         kept = n_steps if keep else 0
-        nodes = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms)
         like = state.e[0]
         sums, F, keep_n = np.zeros(N_SUMS), np.zeros((n_steps, 4)), (kept, n)
         mode, f_z, s = np.zeros((3, *keep_n))
         f, e = np.zeros((2, *keep_n), like.dtype)
-        seen = loop.Seen(nodes, sums, F, mode, f, f_z, e, s)
+        seen = loop.Seen(sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
-        tools = tools_for(scaled.law, scaled.drive.h, in_plane=scaled.n_axes == 2)
         if scaled.drive.is_shaken:
             sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
-        loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, tools, trace, seen)
+        loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, trace, seen)
         if scaled.drive.across is None:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:
@@ -212,11 +209,10 @@ class Stepper:
         """Force and normal force of a spring over its stiffness, at the end of each step from a state on."""
         scaled, n_t = self.scaled, self.scaled.drive.steps
         one, trace = slice(i, i + 1), self._marched(state.copy(), 1)
-        nodes, rows = nodes_of(scaled.drive.h, scaled.law.modes, scaled.law.arms), np.zeros((5, n_t, 1))
-        seen = loop.Seen(nodes, np.zeros(N_SUMS), np.zeros((n_t, 4)), *rows)
+        seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_t, 4)), *np.zeros((5, n_t, 1)))
         springs = Springs(scaled.springs.gap[one], scaled.springs.w[one])  # of Coulomb's friction
         e, s = (np.ascontiguousarray(of[:, one]) for of in (state.e, state.s))
-        loop.look(e, s, springs, self.motion, scaled.law, tools_for(scaled.law, scaled.drive.h), trace, seen)
+        loop.look(e, s, springs, self.motion, scaled.law, trace, seen)
         return seen.f[:, 0], seen.f_z[:, 0]
 
     def _work_of(self, axis: AxisMotion, area: Array, moment: Array) -> float:
