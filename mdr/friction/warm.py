@@ -26,7 +26,7 @@ from mdr.tools.fields import example_of
 from mdr.tools.progress import progress, silent
 
 MATERIALS: tuple[Material, ...] = (example_of(Prony), example_of(KelvinVoigt), example_of(Elastic))  # longest first
-BESIDE = "from mdr.friction.warm import compile_others; compile_others()"  #: what a second process does
+BESIDE = "from mdr.friction.warm import compile_backwards; compile_backwards()"  #: what a second process does
 BODY, MOTION, ALONG = example_of(SpringPull), example_of(NormalOscillation), example_of(InPlaneOscillation)
 ACROSS = replace(ALONG, du_y=ALONG.du_x)
 PULLS = (RigidPull(), BODY, replace(BODY, m=0.0))
@@ -36,23 +36,27 @@ CASE = SlidingContact(example_of(Paraboloid), MATERIALS[0], 0.5, MOTION)
 def compile_all() -> int:
     """Number of kinds of run that are compiled from now on, in two processes where there are two cores; with progress.
 
-    What has been compiled on this machine is read from the disk.
+    What has been compiled on this machine is read from the disk. So the two begin at either end of the list, and each
+    runs through what the other one has done.
     """
-    first, todo = kinds_of_run(MATERIALS[:1]), kinds_of_run()
+    todo = kinds_of_run()
     beside = None if os.cpu_count() == 1 else subprocess.Popen([sys.executable, "-c", BESIDE])
-    with unsaid():
-        for k, run in enumerate(progress(todo, "compiling, once on this machine", "kinds of run", alike=False)):
-            if k == len(first) and beside is not None:
-                beside.wait()  # what it has compiled, or has not, is seen on the disk
-            with silent(lambda: None):
-                run()
+    try:
+        with unsaid():
+            for run in progress(todo, "compiling, once on this machine", "kinds of run", alike=False):
+                with silent(lambda: None):
+                    run()
+    finally:
+        if beside is not None:
+            beside.kill()
+            beside.wait()
     return len(todo)
 
 
-def compile_others() -> None:
-    """What all materials but the first need, in silence."""
+def compile_backwards() -> None:
+    """The same from the end of the list on, in silence."""
     with unsaid(), silent(lambda: None):
-        for run in kinds_of_run(MATERIALS[1:]):
+        for run in reversed(kinds_of_run()):
             run()
 
 

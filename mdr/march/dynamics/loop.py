@@ -130,11 +130,12 @@ def full_slip(e, s, springs, z, z_dot, law, faces, sums):
     (3, n_t) filled with area, moment and end of the force of each step.
     """
     h, (T, modes, arms) = 2.0 * np.pi / (z.size - 1), law
-    tools = new_tools(h, modes, arms, 0.0, springs.gap.size)
+    # asks no more of the row with a lumped state than without, and the march has it in this form
+    tools, lumped = new_tools(h, modes, arms, 0.0, springs.gap.size), np.zeros((s.shape[0], 1))
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
         path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, FASTER, 0.0, face_in(faces, k))
-        of = row(s, e, springs, path, z_dot[k + 1], FASTER, T, modes, arms, tools, None, None, None)
+        of = row(s, e, springs, path, z_dot[k + 1], FASTER, T, modes, arms, tools, lumped, None, None)
         sums[0, k], sums[1, k], sums[2, k] = of.area, of.moment, of.end
 
 
