@@ -118,7 +118,8 @@ def claim(effort: str) -> Claim:
     told_apart = 100 * float(np.mean(np.abs(apart[2]) > 0.1))
     checks = (
         *_punch_checks(), *_static_checks(), *_tail_checks(1 if quick else None), *_end_checks(points),
-        *_depth_checks(of_depth), *_table_checks(), *_space_checks(space), *_logarithm_checks(of_ball, 1 if quick else None),
+        *_depth_checks(of_depth), *_table_checks(), *_space_checks(space),
+        *_logarithm_checks(of_ball, 1 if quick else None),
     )  # fmt: skip
     return Claim(
         "shear_strength",

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -111,9 +111,9 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
     of_face = {name: settings[name] for name in OF_FACE if name in settings}
     contact = SlidingContact(**of_face, **{slot: changed(slot) for slot in parts})
-    for path, field_of in _FIELD_OF.items():
-        if path in settings:
-            contact = _with(contact, path, field_of(contact, path, settings[path]))
+    for path, of in _PATHS.items():
+        if path in settings and of.field is not None:
+            contact = _with(contact, path, of.field(contact, path, settings[path]))
     return contact
 
 
@@ -140,8 +140,8 @@ def value_at(case: SlidingContact, path: str, hold: str = "depth") -> Any:
     """
     if path == "load" and hold == "load":
         return mean_normal_force(case)
-    if path in _VALUE_OF:
-        return _VALUE_OF[path](case)
+    if path in _PATHS:
+        return _PATHS[path].value(case)
     slot, _, field = path.rpartition(".")
     return getattr(getattr(case, slot) if slot else case, field)
 
@@ -183,16 +183,6 @@ def _mass(contact: SlidingContact, path: str, value: Any) -> float:
     return float(contact.pull.coefficients[2] / (positive(path, value) * contact.omega) ** 2)
 
 
-#: in the order in which they are set; frequency, load and alpha are set before there is a contact
-_FIELD_OF: dict[str, Callable[[SlidingContact, str, Any], float]] = {
-    "tan_delta": _tau,
-    "T": _tau,
-    "chi": _amplitude,
-    "eta": _amplitude,
-    "k_x/k_xc": _stiffness,
-    "omega_0/omega": _mass,
-}
-
 # --- and back ---
 
 
@@ -205,19 +195,6 @@ def _load(case: SlidingContact) -> float:
 def _stiffness_ratio(case: SlidingContact) -> float:
     known = at_rest(case)
     return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
-
-
-_VALUE_OF: dict[str, Callable[[SlidingContact], float]] = {
-    "load": _load,
-    "frequency": lambda case: _common_omega(case, "frequency") / (2 * math.pi),
-    "tan_delta": lambda case: _common_omega(case, "tan_delta") * float(getattr(case.material, "tau", 0.0)),
-    "alpha": lambda case: resolved(case).alpha,
-    "T": lambda case: case.T,
-    "chi": lambda case: at_rest(case).chi,
-    "eta": lambda case: at_rest(case).eta,
-    "k_x/k_xc": _stiffness_ratio,
-    "omega_0/omega": lambda case: case.pull.omega_0 / case.omega,
-}
 
 
 def _common_omega(case: SlidingContact, path: str) -> float:
@@ -248,3 +225,27 @@ def _with(contact: SlidingContact, path: str, value: float) -> SlidingContact:
     record = getattr(contact, slot)
     _require_field(path, record, field)
     return replace(contact, **{slot: replace(record, **{field: value})})
+
+
+# --- both ---
+
+
+class _Path(NamedTuple):
+    """A path that is no field: its value in a case, and the value of the field that it sets in a contact."""
+
+    value: Callable[[SlidingContact], float]
+    field: Callable[[SlidingContact, str, Any], float] | None = None  #: None where it is set before there is a contact
+
+
+#: in the order in which they are set
+_PATHS = {
+    "frequency": _Path(lambda case: _common_omega(case, "frequency") / (2 * math.pi)),
+    "load": _Path(_load),
+    "alpha": _Path(lambda case: resolved(case).alpha),
+    "tan_delta": _Path(lambda case: _common_omega(case, "tan_delta") * float(getattr(case.material, "tau", 0.0)), _tau),
+    "T": _Path(lambda case: case.T, _tau),
+    "chi": _Path(lambda case: at_rest(case).chi, _amplitude),
+    "eta": _Path(lambda case: at_rest(case).eta, _amplitude),
+    "k_x/k_xc": _Path(_stiffness_ratio, _stiffness),
+    "omega_0/omega": _Path(lambda case: case.pull.omega_0 / case.omega, _mass),
+}
