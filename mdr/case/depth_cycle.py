@@ -16,8 +16,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
+
+
+def lost_in_digits(u_z0: float, deepest: float) -> float:
+    """Relative rounding of the greatest depth, u_z0 and an amplitude, where they all but cancel: the digits of both do
+    not tell more of a contact of an instant, whatever the method.
+    """
+    return 2 * EPS * max(-u_z0, deepest) / deepest if deepest > 0 else 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -61,6 +68,11 @@ class Cycle(ArrayRecord):
         cos, sin = np.zeros((2, n * self.cos.size))
         cos[n - 1 :: n], sin[n - 1 :: n] = self.cos, self.sin
         return replace(self, omega=omega, cos=cos, sin=sin)
+
+    @property
+    def uncertain(self) -> float:
+        """What friction over mu_0 is not known better than: see `lost_in_digits`."""
+        return lost_in_digits(self.u_z0, self.u_z0 + self.unit * self.greatest)
 
     @property
     def du_z(self) -> float:

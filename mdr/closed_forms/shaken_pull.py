@@ -44,7 +44,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.depth_cycle import harmonic_sum, turns
+from mdr.case.depth_cycle import harmonic_sum, lost_in_digits, turns
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.inversion import invert
 from mdr.tools.arrays import EPS, EXACT, Array, beyond
@@ -142,7 +142,8 @@ def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Arra
         middle = 0.5 * (low + high)
         owner = np.repeat(owner, 2)
         low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
-    return beyond(EXACT, total[0] / total[1]), error / total[1] + TOLERANCE, np.clip(total[2] / total[1], 0, 1)
+    error = error / total[1] + TOLERANCE + lost_in_digits(pull.u_z0, pull.u_z0 + pull.unit * pull._start[1])
+    return beyond(EXACT, total[0] / total[1]), error, np.clip(total[2] / total[1], 0, 1)
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------

@@ -365,19 +365,20 @@ def all_changes(given: Harmonics, v: Array, c_low: float, c_high: float, scan: A
         A, B, z = cuts[:, 3].min(), cuts[:, 4].min(), (cuts[:, 3] + cuts[:, 4]).min()
         start = max(c_low, min(0.5 * (A + B) - math.pi * v[i], 0.5 * z) - 1e-3)
         span, count, low, modes, share = c_high - start, 0, start, 0, 1.0
+        close = max(CLOSE * span, 1e-15 * max(abs(start), abs(c_high)))  # gaps have no more digits
         for k in range(scan.size):
             high = start + scan[k] * span
             _, _, _, target, share_high = _spring(given, v[i], high, cuts, points, share)
             while k > 0 and modes != target and count < MOST_CHANGES:
                 near, far, beyond = low, high, target
-                while far - near > CLOSE * span:
+                while far - near > close:
                     middle = 0.5 * (near + far)
                     _, _, _, there, share = _spring(given, v[i], middle, cuts, points, share)
                     if there == modes:
                         near = middle
                     else:
                         far, beyond = middle, there
-                if count == 0 or near > found[i, count - 1] + 4 * CLOSE * span:
+                if count == 0 or near > found[i, count - 1] + 4 * close:
                     found[i, count] = 0.5 * (near + far)
                     count += 1
                 low, modes = far, beyond
