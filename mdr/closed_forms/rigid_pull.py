@@ -57,6 +57,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord
 
+SLOWEST = 1e-15  #: pull, over mu_0 kappa omega du_z, below which a period less its stick is lost in rounding
 AT_ONCE = 128  #: numbers that an array operation takes hardly longer for than for one
 
 
@@ -93,8 +94,9 @@ class _Stick:
 def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     """Average COF under a rigid pull at velocities v_0 > 0 [m/s], any shape; (*) above.
 
-    Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite, and for a
-    depth that is not harmonic, a material with arms, a shake or a shear strength.
+    Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite, or below
+    1e-15 of mu_0 kappa omega du_z, and for a depth that is not harmonic, a material with arms, a shake or a shear
+    strength.
 
     Examples
     --------
@@ -109,6 +111,9 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     v_0 = finite_array("v_0", v_0, "m/s")
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
+    if np.any(v_0 < SLOWEST * case.unit_velocity):
+        least = f"{SLOWEST:g} of mu_0 kappa omega du_z = {case.unit_velocity:.4g} m/s"
+        raise ValueError(f"v_0 = {float(v_0.min()):g} m/s is below {least}, and lost in rounding: ask static_cof(case)")
     fine, coarse, sticks = _integrals(case, v_0.ravel() / case.unit_velocity, double_exponential())
     # half the step squares the error of the rule: the power 2, of which 1.5 is on the safe side; 1e-13 is rounding
     error = np.abs(fine - coarse) ** 1.5 + 1e-13 + case.cycle.uncertain

@@ -139,8 +139,8 @@ def cof_curve(
         The contact.
     v_0 : array_like of float, shape (n_v,)
         Pulling velocities [m/s], zero or above. Zero is the static limit. Where something shakes in the plane they may
-        be of either sign, friction too, and zero is the limit of a pull ever slower forward. Without a shake what is
-        below 1e-9 of mu_0 kappa omega du_z counts as zero.
+        be of either sign, friction too, and zero is the limit of a pull ever slower forward. Without a shake a pull
+        below 1e-9 of mu_0 kappa omega du_z is computed as one of this velocity, and `cof_error` says so.
     method : {None, "march"}
         None takes the closed form where there is one (a rigid pull, an elastic or Kelvin material, a depth and a shake
         of no more than 64 harmonics) and one run for each velocity elsewhere. "march" takes runs for every case.
@@ -224,8 +224,7 @@ class _Asked:
                 f"v_0 must not be negative, got {float(self.v_0.min())!r} m/s: friction is the same both ways where "
                 "nothing shakes in the plane"
             )
-        at_rest = (np.abs(self.v_0) < SLOWEST * case.unit_velocity) & (not case.is_shaken)
-        self.counted = np.where(at_rest, 0.0, self.v_0)  #: zero stands for the limit at rest
+        self.counted = _not_too_slow(case, self.v_0)  #: zero stands for the limit at rest
         self.is_closed = method is None and has_closed_form(case)
         by_runs = _by_runs(accuracy, n_springs, steps_per_period)
         self.friction: Friction = _closed_form if self.is_closed else by_runs
@@ -243,6 +242,8 @@ class _Asked:
     def columns(self, v_0: Array) -> Columns:
         """Friction at velocities of which zero stands for its limit."""
         known = _both_ways(self.case, v_0, self.friction)
+        slower = np.flatnonzero(self.counted != self.v_0)
+        known.cof_error[slower] += _above_rest(self.case, known.cof[slower])
         if not self.is_closed:
             judged = known.settled & ((v_0 != 0) | self.rest_judges)
             wrong = disordered(v_0, known.cof, known.cof_error, judged)
@@ -266,10 +267,22 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
     not settled, "" where it has.
     """
     case = resolved(case)
-    v_0 = 0.0 if abs(v_0) < SLOWEST * case.unit_velocity and not case.is_shaken else v_0
+    asked = _not_too_slow(case, np.array([v_0]))
     friction = _closed_form if has_closed_form(case) else _by_runs(accuracy)
-    cof, error, settled, _, why, _ = (column[0] for column in _both_ways(case, np.array([v_0]), friction))
+    cof, error, settled, _, why, _ = (column[0] for column in _both_ways(case, asked, friction))
+    error += float(_above_rest(case, cof)) if asked != v_0 else 0.0
     return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
+
+
+def _not_too_slow(case: SlidingContact, v_0: Array) -> Array:
+    """The velocities as they are computed: a pull slower than SLOWEST as the slowest. Zero stays, the limit at rest."""
+    least = 0.0 if case.is_shaken else SLOWEST * case.unit_velocity
+    return np.where(v_0 == 0, 0.0, np.copysign(np.maximum(np.abs(v_0), least), v_0))
+
+
+def _above_rest(case: SlidingContact, cof: ArrayLike) -> Array:
+    """By how much friction at the slowest pull may be above that of slower ones: it never falls with the velocity."""
+    return np.abs(np.asarray(cof) - static_cof(case))
 
 
 class Columns(NamedTuple):

@@ -131,6 +131,19 @@ def test_a_contact_of_an_instant_is_the_same_in_other_units_within_its_error(T, 
         assert np.all(np.abs(cof - first) <= error + its)
 
 
+@pytest.mark.parametrize("T", [0.05, 0.3, 3.0])
+@pytest.mark.parametrize("depth_ratio", [2.0, 0.5, -0.5])
+def test_down_to_the_slowest_pull_friction_comes_to_the_static_one(depth_ratio, T):
+    """By the power 2/3 at least; slower ones, whose stick is a period but for rounding, are refused."""
+    case = contact("paraboloid", depth_ratio, T)
+    unit, static = unit_of_velocity(case), mdr.static_cof(case) / case.mu_0
+    v_hat = np.geomspace(1.001e-15, 1e-9, 13)
+    off = friction(case, v_hat)[0] - static
+    assert np.all((off > -1e-12) & (off <= 2 * off[-1] * (v_hat / 1e-9) ** (2 / 3) + 1e-12))
+    with pytest.raises(ValueError, match="ask static_cof"):
+        average_friction(case, 0.9e-15 * unit)
+
+
 def wavy(r):
     return r**2 / 1e-2 + 2e-5 * np.sin(r / 4e-3 * 9) ** 2
 

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import by_groups, contact, unit_of_velocity
+from conftest import SHAPES, by_groups, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 from twins import rigid_pull as reference
 
 import mdr
+from mdr.closed_forms import rigid_pull
 from mdr.friction import measured_velocity
 
 # v_c is measured to 1e-4 away from resonances. The bracket is 2e-5 wide either way, and wider by what the resolution
@@ -169,6 +170,19 @@ def test_a_curve_starts_at_the_static_limit_and_ends_at_mu_0(curve):
     for name in ("v_0", "cof", "cof_error", "settled", "stick_share"):
         assert getattr(curve, name).shape == (5,), name
     assert curve.settled.dtype == bool
+
+
+@pytest.mark.parametrize("method", [None, "march"])
+@pytest.mark.parametrize("tau", [0.0, 1e-3])
+def test_the_slowest_pulls_are_known_within_their_error(method, tau):
+    """Under dashpots friction rises like the power 2/3 of the velocity, far above the limit at rest."""
+    material = mdr.KelvinVoigt(3e6, 0.4, tau) if tau else mdr.Elastic(3e6, 0.4)
+    case = mdr.SlidingContact(SHAPES["paraboloid"][0], material, 0.5, mdr.NormalOscillation(4e-6, 2e-6, 300.0))
+    v_0 = case.unit_velocity * np.array([1e-12, 9e-10])
+    curve, known = mdr.cof_curve(case, v_0, method=method), rigid_pull.average_friction(case, v_0)
+    assert np.all(np.abs(curve.cof - known.cof) <= curve.cof_error + known.cof_error)
+    assert np.all(curve.cof_error < 5e-6)
+    assert mdr.cof_curve(case, [0.0]).cof[0] == mdr.static_cof(case)
 
 
 def test_the_march_can_be_forced_and_a_number_is_a_list_of_one():
