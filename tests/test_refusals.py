@@ -554,7 +554,8 @@ def test_a_pull_slower_than_rounding_is_its_limit_in_a_curve():
     for pull in (SLED, mdr.RigidPull()):
         case = replace(CASE, pull=pull)
         curve = mdr.cof_curve(case, [1e-30, 1e-15])
-        assert curve.cof.tolist() == 2 * [mdr.static_cof(case)]
+        assert np.all(np.abs(curve.cof - mdr.static_cof(case)) <= curve.cof_error)
+        assert np.all(curve.cof_error < 1.1e-5 * case.mu_0)
         assert curve.v_0.tolist() == [1e-30, 1e-15]
 
 

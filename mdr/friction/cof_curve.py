@@ -140,7 +140,7 @@ def cof_curve(
     v_0 : array_like of float, shape (n_v,)
         Pulling velocities [m/s], zero or above. Zero is the static limit. Where something shakes in the plane they may
         be of either sign, friction too, and zero is the limit of a pull ever slower forward. Without a shake a pull
-        below 1e-9 of mu_0 kappa omega du_z is computed as one of this velocity, and `cof_error` says so.
+        below 1e-9 of mu_0 kappa omega du_z is computed as one of this velocity, or as zero, within `cof_error`.
     method : {None, "march"}
         None takes the closed form where there is one (a rigid pull, an elastic or Kelvin material, a depth and a shake
         of no more than 64 harmonics) and one run for each velocity elsewhere. "march" takes runs for every case.
@@ -224,8 +224,8 @@ class _Asked:
                 f"v_0 must not be negative, got {float(self.v_0.min())!r} m/s: friction is the same both ways where "
                 "nothing shakes in the plane"
             )
-        self.counted = _not_too_slow(case, self.v_0)  #: zero stands for the limit at rest
         self.is_closed = method is None and has_closed_form(case)
+        self.counted = _not_too_slow(case, self.v_0, self.is_closed)  #: zero stands for the limit at rest
         by_runs = _by_runs(accuracy, n_springs, steps_per_period)
         self.friction: Friction = _closed_form if self.is_closed else by_runs
 
@@ -242,8 +242,8 @@ class _Asked:
     def columns(self, v_0: Array) -> Columns:
         """Friction at velocities of which zero stands for its limit."""
         known = _both_ways(self.case, v_0, self.friction)
-        slower = np.flatnonzero(self.counted != self.v_0)
-        known.cof_error[slower] += _above_rest(self.case, known.cof[slower])
+        if (slower := np.flatnonzero(self.counted != self.v_0)).size:
+            known.cof_error[slower] += _as_slow(self.case, known.cof[slower], self.is_closed)
         if not self.is_closed:
             judged = known.settled & ((v_0 != 0) | self.rest_judges)
             wrong = disordered(v_0, known.cof, known.cof_error, judged)
@@ -267,22 +267,27 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
     not settled, "" where it has.
     """
     case = resolved(case)
-    asked = _not_too_slow(case, np.array([v_0]))
-    friction = _closed_form if has_closed_form(case) else _by_runs(accuracy)
+    is_closed = has_closed_form(case)
+    asked, friction = _not_too_slow(case, np.array([v_0]), is_closed), _closed_form if is_closed else _by_runs(accuracy)
     cof, error, settled, _, why, _ = (column[0] for column in _both_ways(case, asked, friction))
-    error += float(_above_rest(case, cof)) if asked != v_0 else 0.0
+    error += float(_as_slow(case, cof, is_closed)) if asked != v_0 else 0.0
     return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
 
 
-def _not_too_slow(case: SlidingContact, v_0: Array) -> Array:
-    """The velocities as they are computed: a pull slower than SLOWEST as the slowest. Zero stays, the limit at rest."""
+def _not_too_slow(case: SlidingContact, v_0: Array, is_closed: bool) -> Array:
+    """The velocities as they are computed: a pull below SLOWEST in closed form as the slowest, in runs as the limit at
+    rest, zero.
+    """
     least = 0.0 if case.is_shaken else SLOWEST * case.unit_velocity
-    return np.where(v_0 == 0, 0.0, np.copysign(np.maximum(np.abs(v_0), least), v_0))
+    slow = (np.abs(v_0) < least) & (v_0 != 0)
+    return np.where(slow, np.copysign(least, v_0) if is_closed else 0.0, v_0)
 
 
-def _above_rest(case: SlidingContact, cof: ArrayLike) -> Array:
-    """By how much friction at the slowest pull may be above that of slower ones: it never falls with the velocity."""
-    return np.abs(np.asarray(cof) - static_cof(case))
+def _as_slow(case: SlidingContact, cof: ArrayLike, is_closed: bool) -> Array:
+    """By how much friction may be another at slower pulls than the slowest. It never falls with the velocity, so that
+    in closed form it is between this and the static one; in runs it is static to what they are good to.
+    """
+    return np.abs(np.asarray(cof) - static_cof(case)) if is_closed else np.asarray(BUDGET * full_cof(case))
 
 
 class Columns(NamedTuple):
@@ -362,7 +367,7 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
 
 def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     """Friction of a case that has a closed form."""
-    if case.is_of_the_paper and not case.is_shaken:  # good to 1e-13, and several times faster than event by event
+    if case.is_of_the_paper and not case.is_shaken:  # good to rounding, and several times faster than event by event
         known = average_friction(case, v_0)
         return Columns.exact(known.cof, known.cof_error, known.stick_share)
     cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)

@@ -194,4 +194,16 @@ def test_tools_of_fewer_springs_are_refused():
     end, tools = one.from_then(one.h), tools_for(one.law, one.h, one.gap.size - 1)
     springs = Springs(one.gap, one.w)
     with pytest.raises(ValueError, match="of fewer springs"):
-        row(one.s.copy(), one.e.copy(), springs, one.path, end.z_1, end.x_1, *one.law, tools, one.s[:, :1], None, None)
+        row(
+            one.s.copy(),
+            one.e.copy(),
+            springs,
+            one.path,
+            end.z_1,
+            end.x_1,
+            *one.law,
+            tools,
+            one.s[:, :1].copy(),
+            None,
+            None,
+        )

@@ -130,7 +130,7 @@ def full_slip(e, s, springs, z, z_dot, law, faces, sums):
     (3, n_t) filled with area, moment and end of the force of each step.
     """
     h, (T, modes, arms) = 2.0 * np.pi / (z.size - 1), law
-    # asks no more of the row with a lumped state than without, and the march has it in this form
+    # nobody reads the lumped state here: with it, the row is the one that the march has compiled
     tools, lumped = new_tools(h, modes, arms, 0.0, springs.gap.size), np.zeros((s.shape[0], 1))
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
