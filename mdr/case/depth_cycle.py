@@ -20,11 +20,11 @@ from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
 
 
-def lost_in_digits(u_z0: float, deepest: float) -> float:
-    """Relative rounding of the greatest depth, u_z0 and an amplitude, where they all but cancel: the digits of both do
-    not tell more of a contact of an instant, whatever the method.
+def lost_in_digits(largest: Array | float, deepest: float) -> Array | float:
+    """What friction over mu_0 is not known better than, whatever the method: the rounding of the largest of the lengths
+    whose differences are followed, over the greatest depth, to which they all but cancel in a contact of an instant.
     """
-    return 2 * EPS * max(-u_z0, deepest) / deepest if deepest > 0 else 0.0
+    return 2 * EPS * largest / deepest if deepest > 0 else 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -71,8 +71,9 @@ class Cycle(ArrayRecord):
 
     @property
     def uncertain(self) -> float:
-        """What friction over mu_0 is not known better than: see `lost_in_digits`."""
-        return lost_in_digits(self.u_z0, self.u_z0 + self.unit * self.greatest)
+        """What friction over mu_0 is not known better than, for the digits of the depth: see `lost_in_digits`."""
+        deepest = self.u_z0 + self.unit * self.greatest
+        return float(lost_in_digits(max(-self.u_z0, deepest), deepest))
 
     @property
     def du_z(self) -> float:

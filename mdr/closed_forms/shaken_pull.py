@@ -142,8 +142,15 @@ def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Arra
         middle = 0.5 * (low + high)
         owner = np.repeat(owner, 2)
         low, high = np.column_stack([low, middle]).ravel(), np.column_stack([middle, high]).ravel()
-    error = error / total[1] + TOLERANCE + lost_in_digits(pull.u_z0, pull.u_z0 + pull.unit * pull._start[1])
+    error = error / total[1] + TOLERANCE + _lost_in_digits(pull, v)
     return beyond(EXACT, total[0] / total[1]), error, np.clip(total[2] / total[1], 0, 1)
+
+
+def _lost_in_digits(pull: ShakenPull, v: Array) -> Array:
+    """That of the depth; and of the way of the top, whose integrals up to either end of a contact are subtracted."""
+    mean, top = pull.u_z0 / pull.unit, pull.u_z0 / pull.unit + pull._start[1]
+    way, lasts = 2 * np.pi * v + np.abs(pull.X).sum(), np.sqrt(min(max(2 * top, 0.0), 1.0))
+    return np.asarray(lost_in_digits(max(-mean, top), top) + lost_in_digits(way, top * lasts))
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------

@@ -201,3 +201,14 @@ def test_it_never_touches():
     with pytest.raises(ValueError, match="the indenter never touches"):
         average_friction(pull_of("cone", -1.5, COS, NONE), np.ones(1))
     assert math.isfinite(band(pull_of("cone", -0.999, COS, NONE))[1])
+
+
+@pytest.mark.parametrize("phase", [0.5, 1.5, 2.5])
+def test_a_long_way_beside_a_contact_of_an_instant_is_in_the_error(phase):
+    """All slips; but a way 1e12 times the depth has integrals whose digits are lost where they are subtracted."""
+    pull = pull_of("paraboloid", 5.6e-11 - 1, COS, shaken(20.0, phase))
+    found, error, _ = average_friction(pull, [50.0])
+    assert abs(found - 1) <= error
+    kept = average_friction(pull_of("paraboloid", 0.5, COS, shaken(20.0, phase)), [50.0])
+    assert abs(kept[0] - 1) < 1e-13
+    assert kept[1] < ERROR
