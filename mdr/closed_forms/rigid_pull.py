@@ -114,9 +114,10 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     if np.any(v_0 < SLOWEST * case.unit_velocity):
         least = f"{SLOWEST:g} of mu_0 kappa omega du_z = {case.unit_velocity:.4g} m/s"
         raise ValueError(f"v_0 = {float(v_0.min()):g} m/s is below {least}, and lost in rounding: ask static_cof(case)")
-    fine, coarse, sticks = _integrals(case, v_0.ravel() / case.unit_velocity, double_exponential())
+    v = v_0.ravel() / case.unit_velocity
+    fine, coarse, sticks = _integrals(case, v, double_exponential())
     # half the step squares the error of the rule: the power 2, of which 1.5 is on the safe side; 1e-13 is rounding
-    error = np.abs(fine - coarse) ** 1.5 + 1e-13 + np.where(fine > 0, case.cycle.uncertain, 0.0)
+    error = np.abs(fine - coarse) ** 1.5 + 1e-13 + np.where(v < 1, case.cycle.uncertain, 0.0)
     shape = v_0.shape
     return RigidPullFriction(
         cof=case.mu_0 * (1 - fine).reshape(shape),

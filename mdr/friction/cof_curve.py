@@ -243,6 +243,7 @@ class _Asked:
         """Friction at velocities of which zero stands for its limit."""
         known = _both_ways(self.case, v_0, self.friction)
         if (slower := np.flatnonzero(self.counted != self.v_0)).size:
+            known.cof[slower] = np.copysign(known.cof[slower], self.v_0[slower])
             known.cof_error[slower] += _as_slow(self.case, known.cof[slower], self.is_closed)
         if not self.is_closed:
             judged = known.settled & ((v_0 != 0) | self.rest_judges)
@@ -270,7 +271,8 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
     is_closed = has_closed_form(case)
     asked, friction = _not_too_slow(case, np.array([v_0]), is_closed), _closed_form if is_closed else _by_runs(accuracy)
     cof, error, settled, _, why, _ = (column[0] for column in _both_ways(case, asked, friction))
-    error += float(_as_slow(case, cof, is_closed)) if asked != v_0 else 0.0
+    if asked != v_0:
+        cof, error = np.copysign(cof, v_0), error + float(_as_slow(case, cof, is_closed))
     return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
 
 
@@ -287,7 +289,7 @@ def _as_slow(case: SlidingContact, cof: ArrayLike, is_closed: bool) -> Array:
     """By how much friction may be another at slower pulls than the slowest. It never falls with the velocity, so that
     in closed form it is between this and the static one; in runs it is static to what they are good to.
     """
-    return np.abs(np.asarray(cof) - static_cof(case)) if is_closed else np.asarray(BUDGET * full_cof(case))
+    return np.abs(np.abs(cof) - static_cof(case)) if is_closed else np.asarray(BUDGET * full_cof(case))
 
 
 class Columns(NamedTuple):

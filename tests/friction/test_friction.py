@@ -183,6 +183,9 @@ def test_the_slowest_pulls_are_known_within_their_error(method, tau):
     assert np.all(np.abs(curve.cof - known.cof) <= curve.cof_error + known.cof_error)
     assert np.all(curve.cof_error < 1.1e-5 * case.mu_0)
     assert mdr.cof_curve(case, [0.0]).cof[0] == mdr.static_cof(case)
+    unshaken = replace(case, shake=mdr.InPlaneOscillation(300.0))  # by which a velocity may be negative
+    back = mdr.cof_curve(unshaken, -v_0, method=method)
+    assert_allclose([-back.cof, back.cof_error], [curve.cof, curve.cof_error], rtol=1e-12)
 
 
 def test_the_march_can_be_forced_and_a_number_is_a_list_of_one():
