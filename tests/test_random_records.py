@@ -300,7 +300,7 @@ RUNS = (pressed, coarse_run, short_run, other_units)
 
 @pytest.mark.parametrize(
     ("question", "n"),
-    [*((one, 16) for one in QUICK), *((one, 10) for one in RUNS)],
+    [*((one, 16) for one in QUICK), *((one, 14) for one in RUNS)],
     ids=lambda one: getattr(one, "__name__", str(one)),
 )
 def test_any_record_answers_or_says_why_not(question, n):

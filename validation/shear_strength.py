@@ -105,7 +105,7 @@ def claim(effort: str) -> Claim:
     mu_0, strength = _of_the_table()
     tau_0 = 1e-3 * strength / PLATE
     met = np.abs(mu_0 + strength / LOADS - OVER_LOAD)[[4, 6]].max()
-    space = [_in_space(*one, cells=16 if quick else 48) for one in IN_SPACE[: 1 if quick else None]]
+    space = [_in_space(*one, cells=24 if quick else 48) for one in IN_SPACE[: 1 if quick else None]]
     off_space = 100 * max(abs(springs - annuli) for springs, annuli, *_ in space)
     of_space, of_ball = (
         laws.full_slip_of_half_space(strong("paraboloid", alpha, 0.5, u_z0=d)) / other

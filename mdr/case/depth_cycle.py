@@ -21,8 +21,8 @@ from mdr.tools.records import ArrayRecord
 
 
 def lost_in_digits(largest: Array | float, deepest: float) -> Array | float:
-    """What friction over mu_0 is not known better than, whatever the method: the rounding of the largest of the lengths
-    whose differences are followed, over the greatest depth, to which they all but cancel in a contact of an instant.
+    """Error of friction over mu_0 that no method avoids: the rounding of the largest of the lengths whose differences
+    are followed, over the greatest depth, to which they all but cancel in a contact of an instant.
     """
     return 2 * EPS * largest / deepest if deepest > 0 else 0.0
 
@@ -70,8 +70,8 @@ class Cycle(ArrayRecord):
         return replace(self, omega=omega, cos=cos, sin=sin)
 
     @property
-    def uncertain(self) -> float:
-        """What friction over mu_0 is not known better than, for the digits of the depth: see `lost_in_digits`."""
+    def lost_in_digits(self) -> float:
+        """Error of friction over mu_0 that the digits of mean and amplitude leave."""
         deepest = self.u_z0 + self.unit * self.greatest
         return float(lost_in_digits(max(-self.u_z0, deepest), deepest))
 

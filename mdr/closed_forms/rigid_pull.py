@@ -57,7 +57,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord
 
-SLOWEST = 1e-15  #: pull, over mu_0 kappa omega du_z, below which a period less its stick is lost in rounding
+LEAST_PULL = 1e-15  #: velocity, over mu_0 kappa omega du_z, below which a period less its stick is lost in rounding
 AT_ONCE = 128  #: numbers that an array operation takes hardly longer for than for one
 
 
@@ -111,13 +111,13 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     v_0 = finite_array("v_0", v_0, "m/s")
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
-    if np.any(v_0 < SLOWEST * case.unit_velocity):
-        least = f"{SLOWEST:g} of mu_0 kappa omega du_z = {case.unit_velocity:.4g} m/s"
+    if np.any(v_0 < LEAST_PULL * case.unit_velocity):
+        least = f"{LEAST_PULL:g} of mu_0 kappa omega du_z = {case.unit_velocity:.4g} m/s"
         raise ValueError(f"v_0 = {float(v_0.min()):g} m/s is below {least}, and lost in rounding: ask static_cof(case)")
     v = v_0.ravel() / case.unit_velocity
     fine, coarse, sticks = _integrals(case, v, double_exponential())
     # half the step squares the error of the rule: the power 2, of which 1.5 is on the safe side; 1e-13 is rounding
-    error = np.abs(fine - coarse) ** 1.5 + 1e-13 + np.where(v < 1, case.cycle.uncertain, 0.0)
+    error = np.abs(fine - coarse) ** 1.5 + 1e-13 + np.where(v < 1, case.cycle.lost_in_digits, 0.0)
     shape = v_0.shape
     return RigidPullFriction(
         cof=case.mu_0 * (1 - fine).reshape(shape),

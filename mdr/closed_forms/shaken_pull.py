@@ -147,10 +147,12 @@ def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Arra
 
 
 def _lost_in_digits(pull: ShakenPull, v: Array) -> Array:
-    """That of the depth; and of the way of the top, whose integrals up to either end of a contact are subtracted."""
-    mean, top = pull.u_z0 / pull.unit, pull.u_z0 / pull.unit + pull._start[1]
-    way, lasts = 2 * np.pi * v + np.abs(pull.X).sum(), np.sqrt(min(max(2 * top, 0.0), 1.0))
-    return np.asarray(lost_in_digits(max(-mean, top), top) + lost_in_digits(way, top * lasts))
+    """Error that the digits of the depth leave, and those of the way of the top: its integrals up to either end of a
+    contact are subtracted, which lasts for about the root of twice the greatest depth.
+    """
+    mean, deepest = pull.u_z0 / pull.unit, pull.u_z0 / pull.unit + pull._start[1]
+    way, lasts = 2 * np.pi * v + np.abs(pull.X).sum(), np.sqrt(min(max(2 * deepest, 0.0), 1.0))
+    return np.asarray(lost_in_digits(max(-mean, deepest), deepest) + lost_in_digits(way, deepest * lasts))
 
 
 # --- the array: intervals of x, and the rule within -----------------------------------------------------------------

@@ -19,7 +19,7 @@ Complex = NDArray[np.complex128]
 MOST_CHANGES = 96  #: of the sequence of modes along the array; further ones are left to the halving
 MOST_TURNS = 100  #: of Newton's method, for an instant and for the periodic state
 #: half of the digits: last step of Newton's method, over the compression and (1 - P')², whose square is a rounding; and
-#: share of the range of gaps to which a change is found
+#: share of the range of gaps to which a change is found, as far as gaps have digits
 CLOSE = 1e-7
 
 _jit = compiled(nogil=True, error_model="numpy")
@@ -365,7 +365,7 @@ def all_changes(given: Harmonics, v: Array, c_low: float, c_high: float, scan: A
         A, B, z = cuts[:, 3].min(), cuts[:, 4].min(), (cuts[:, 3] + cuts[:, 4]).min()
         start = max(c_low, min(0.5 * (A + B) - math.pi * v[i], 0.5 * z) - 1e-3)
         span, count, low, modes, share = c_high - start, 0, start, 0, 1.0
-        close = max(CLOSE * span, 1e-15 * max(abs(start), abs(c_high)))  # gaps have no more digits
+        close = max(CLOSE * span, 1e-15 * max(abs(start), abs(c_high)))
         for k in range(scan.size):
             high = start + scan[k] * span
             _, _, _, target, share_high = _spring(given, v[i], high, cuts, points, share)

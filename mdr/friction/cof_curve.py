@@ -286,8 +286,8 @@ def _not_too_slow(case: SlidingContact, v_0: Array, is_closed: bool) -> Array:
 
 
 def _as_slow(case: SlidingContact, cof: ArrayLike, is_closed: bool) -> Array:
-    """By how much friction may be another at slower pulls than the slowest. It never falls with the velocity, so that
-    in closed form it is between this and the static one; in runs it is static to what they are good to.
+    """Error of taking this friction, of the slowest pull or at rest, for that of a slower pull. It never falls with the
+    velocity: in closed form it lies between this and the static one. Runs are no better than their default bound.
     """
     return np.abs(np.abs(cof) - static_cof(case)) if is_closed else np.asarray(BUDGET * full_cof(case))
 

@@ -41,15 +41,12 @@ def compile_all() -> int:
     """
     todo = kinds_of_run()
     beside = None if os.cpu_count() == 1 else subprocess.Popen([sys.executable, "-c", BESIDE])
-    try:
-        with unsaid():
-            for run in progress(todo, "compiling, once on this machine", "kinds of run", alike=False):
-                with silent(lambda: None):
-                    run()
-    finally:
-        if beside is not None:
-            beside.kill()
-            beside.wait()
+    with unsaid():
+        for run in progress(todo, "compiling, once on this machine", "kinds of run", alike=False):
+            with silent(lambda: None):
+                run()
+    if beside is not None:
+        beside.wait()  # it may be writing to the disk
     return len(todo)
 
 

@@ -192,18 +192,6 @@ def test_the_normal_part_may_be_cut_into_two(material):
 def test_tools_of_fewer_springs_are_refused():
     one = rows(MATERIALS["elastic"])[0]
     end, tools = one.from_then(one.h), tools_for(one.law, one.h, one.gap.size - 1)
-    springs = Springs(one.gap, one.w)
+    springs, ends, lumped = Springs(one.gap, one.w), (end.z_1, end.x_1), np.empty((1, 1))
     with pytest.raises(ValueError, match="of fewer springs"):
-        row(
-            one.s.copy(),
-            one.e.copy(),
-            springs,
-            one.path,
-            end.z_1,
-            end.x_1,
-            *one.law,
-            tools,
-            one.s[:, :1].copy(),
-            None,
-            None,
-        )
+        row(one.s.copy(), one.e.copy(), springs, one.path, *ends, *one.law, tools, lumped, None, None)

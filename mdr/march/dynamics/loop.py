@@ -144,7 +144,7 @@ def look(e, s, springs, motion, law, trace, seen):
     """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
     T, modes, arms = law
     h, n, kept = 2.0 * np.pi / (motion.z.size - 1), springs.gap.size, seen.mode.shape[0]
-    tools, all_of_it = new_tools(h, modes, arms, 0.0 * e[0, 0], n), nodes_of(h, modes, arms)
+    tools, nodes_of_step = new_tools(h, modes, arms, 0.0 * e[0, 0], n), nodes_of(h, modes, arms)
     mode, f_z, f, F = np.empty(n), np.empty(n), np.empty_like(e[0]), np.empty(4)
     for k in range(motion.z.size - 1):
         path = path_of(motion, k, h)
@@ -152,7 +152,7 @@ def look(e, s, springs, motion, law, trace, seen):
             t, x_1, x_2 = trace.parts[k, part, 0].real, trace.parts[k, part, 1], trace.parts[k, part, 2]
             if t == 0.0:
                 continue
-            now, nodes, here = tools, all_of_it, Path(path.z_0, path.z_1, path.z_2, x_1, x_2, path.face)
+            now, nodes, here = tools, nodes_of_step, Path(path.z_0, path.z_1, path.z_2, x_1, x_2, path.face)
             if t < h:
                 now, nodes = tools_of(t, modes, arms, tools), nodes_of(t, modes, arms)
             path = later(here, t)

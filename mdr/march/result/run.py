@@ -211,7 +211,7 @@ def finish(end: MarchEnd) -> SlidingRun:
     if not account.sees_contact:
         raise too_coarse(scaled.drive.steps)
     mean_F_z = scaled.normal.mean * force_z
-    error += end.hidden_error + case.cycle.uncertain
+    error += end.hidden_error + case.cycle.lost_in_digits
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
     sticks = account.stick_share
