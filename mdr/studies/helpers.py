@@ -1,8 +1,8 @@
 """Processes that help to compute a study, as Python lets only one thread of a process go on at a time.
 
 A helper is this Python with `main` as its script, so that nothing of the user's own script is run again. It reads
-pickled frames from its standard input, at first the work, then ranges of units, and answers each on its standard
-output; it ends where its input does, also if the process that asked is gone.
+pickles from its standard input, at first that of the work, then those of ranges of units, and answers each on its
+standard output; it ends where its input does, also if the process that asked is gone.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import IO, Any
 from mdr.studies.points import Points, compute
 from mdr.studies.work import Work
 
-LENGTH = 8  #: bytes that tell how long a frame is
+CUT_OFF = (EOFError, pickle.UnpicklingError)  #: where a pipe ends before a pickle, or within
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 KNOWN = {"mdr", "numpy", "builtins"}  #: packages that are the same in every process
 LOOK = 0.2  #: s between two looks whether the study has been ended
@@ -62,8 +62,8 @@ class Helper:
         assert self.process.stdout is not None
         try:
             send(self.process.stdin, what)
-            return receive(self.process.stdout)
-        except (EOFError, OSError, pickle.UnpicklingError, MemoryError) as error:  # also of a frame that is none
+            return pickle.load(self.process.stdout)
+        except (*CUT_OFF, OSError, MemoryError) as error:
             raise Lost(f"a process that helped ended with status {self.process.wait()}") from error
 
     def close(self) -> None:
@@ -77,10 +77,10 @@ class Helper:
 
 
 class _Packages(pickle.Unpickler):
-    """Notes the packages that a frame needs."""
+    """Notes the packages that a pickle needs."""
 
-    def __init__(self, frame: bytes) -> None:
-        super().__init__(BytesIO(frame))
+    def __init__(self, pickled: bytes) -> None:
+        super().__init__(BytesIO(pickled))
         self.packages: set[str] = set()
 
     def find_class(self, module: str, name: str) -> Any:
@@ -110,21 +110,9 @@ def helper_for(work: Work, ended: Event) -> Helper | None:
 
 
 def send(pipe: IO[bytes], what: Any) -> None:
-    """Write a frame."""
-    frame = pickle.dumps(what)
-    pipe.write(len(frame).to_bytes(LENGTH, "big") + frame)
+    """Write a pickle, which tells by itself where it ends; nothing is written of what cannot be pickled."""
+    pipe.write(pickle.dumps(what))
     pipe.flush()
-
-
-def receive(pipe: IO[bytes]) -> Any:
-    """Read a frame. Raises EOFError where there is none."""
-    length = pipe.read(LENGTH)
-    if len(length) < LENGTH:
-        raise EOFError
-    frame = pipe.read(size := int.from_bytes(length, "big"))
-    if len(frame) < size:
-        raise EOFError
-    return pickle.loads(frame)
 
 
 def main() -> None:
@@ -134,8 +122,8 @@ def main() -> None:
     asked, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what is printed
     try:
-        work = receive(asked)
-    except EOFError:
+        work = pickle.load(asked)
+    except CUT_OFF:
         return
     except Exception as error:  # it cannot be read here
         send(answers, error)
@@ -143,8 +131,8 @@ def main() -> None:
     send(answers, True)
     while True:
         try:
-            units = receive(asked)
-        except EOFError:
+            units = pickle.load(asked)
+        except CUT_OFF:
             return
         try:
             answer: Any = compute(work, units)

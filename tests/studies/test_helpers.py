@@ -1,6 +1,7 @@
 """Processes that help with a study: the same bits, and no trace of them when it ends, however it does."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import pytest
 
 import mdr
 from mdr.studies import engine
-from mdr.studies.helpers import Helper, Lost, helper_for, receive, send
+from mdr.studies.helpers import Helper, Lost, helper_for, send
 from mdr.studies.points import compute
 
 DEPTHS = {"oscillation.u_z0": np.linspace(3e-6, 9e-6, 24).tolist()}
@@ -122,7 +123,7 @@ def test_a_helper_whose_asker_is_gone_ends_in_silence():
     command = [sys.executable, "-c", "from mdr.studies import helpers; helpers.main()"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         send(process.stdin, grids.work(grids.RIGID, DEPTHS))
-        assert receive(process.stdout) is True
+        assert pickle.load(process.stdout) is True
         process.stdout.close()
         send(process.stdin, range(2))
         process.stdin.close()
