@@ -175,8 +175,9 @@ def cof_curve(
     >>> mdr.cof_curve(case, [0, 1e-4, 3e-4, 5e-4]).cof.round(3)
     array([0.319, 0.364, 0.398, 0.4  ])
     """
-    asked = _Asked(resolved(case), v_0, method, n_springs, steps_per_period, accuracy)
-    case, v_0 = asked.case, asked.v_0
+    case = resolved(case)
+    v_0 = _velocities(case, v_0)
+    asked = _Asked(case, v_0, method, accuracy, n_springs=n_springs, steps_per_period=steps_per_period)
     columns, back = asked.columns(asked.and_rest), None
     static = float(columns.cof[np.argmax(asked.and_rest == 0)])
     if np.any(v_0 < 0) and case.is_alike_both_ways:
@@ -198,35 +199,35 @@ def cof_curve(
 
 def cof_at(case: SlidingContact, v_0: ArrayLike, **knobs: Any) -> Columns:
     """Friction at velocities as a curve has it, without its limit at rest and its scale; knobs: of `cof_curve`."""
-    asked = _Asked(resolved(case), v_0, **knobs)
+    case = resolved(case)
+    asked = _Asked(case, _velocities(case, v_0), **knobs)
     return asked.columns(asked.and_rest if asked.rest_judges else asked.counted).first(asked.v_0.size)
 
 
+def _velocities(case: SlidingContact, v_0: ArrayLike) -> Array:
+    """Velocities in a row, negative only where something shakes in the plane."""
+    v_0 = row("v_0", v_0, "m/s", "velocities")
+    if case.shake is None and np.any(v_0 < 0):
+        raise ValueError(
+            f"v_0 must not be negative, got {float(v_0.min())!r} m/s: friction is the same both ways where "
+            "nothing shakes in the plane"
+        )
+    return v_0
+
+
 class _Asked:
-    """What is asked of a curve, checked."""
+    """What is asked of a curve."""
 
     def __init__(
-        self,
-        case: SlidingContact,
-        v_0: ArrayLike,
-        method: str | None = None,
-        n_springs: int | None = None,
-        steps_per_period: int | None = None,
-        accuracy: float = BUDGET,
+        self, case: SlidingContact, v_0: Array, method: str | None = None, accuracy: float = BUDGET, **knobs: Any
     ) -> None:
-        self.case, accuracy = case, accuracy_of(accuracy)
-        require_knobs(n_springs=n_springs, steps_per_period=steps_per_period)
+        self.case, self.v_0, accuracy = case, v_0, accuracy_of(accuracy)
+        require_knobs(**knobs)
         if method not in (None, "march"):
             raise ValueError(f'method must be None or "march", got {method!r}')
-        self.v_0 = row("v_0", v_0, "m/s", "velocities")
-        if case.shake is None and np.any(self.v_0 < 0):
-            raise ValueError(
-                f"v_0 must not be negative, got {float(self.v_0.min())!r} m/s: friction is the same both ways where "
-                "nothing shakes in the plane"
-            )
         self.is_closed = method is None and has_closed_form(case)
         self.counted = _not_too_slow(case, self.v_0, self.is_closed)  #: zero stands for the limit at rest
-        by_runs = _by_runs(accuracy, n_springs, steps_per_period)
+        by_runs = partial(_runs, accuracy=accuracy, **knobs)
         self.friction: Friction = _closed_form if self.is_closed else by_runs
 
     @property
@@ -267,12 +268,8 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
     """Friction [-] at one velocity as a curve has it, without the limit at rest; the bound on its error; and why it has
     not settled, "" where it has.
     """
-    case = resolved(case)
-    is_closed = has_closed_form(case)
-    asked, friction = _not_too_slow(case, np.array([v_0]), is_closed), _closed_form if is_closed else _by_runs(accuracy)
-    cof, error, settled, _, why, _ = (column[0] for column in _both_ways(case, asked, friction))
-    if asked != v_0:
-        cof, error = np.copysign(cof, v_0), error + float(_as_slow(case, cof, is_closed))
+    asked = _Asked(resolved(case), np.array([v_0]), accuracy=accuracy)
+    cof, error, settled, _, why, _ = (column[0] for column in asked.columns(asked.counted))
     return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
 
 
@@ -385,20 +382,14 @@ def _slow_limit(runs: Columns) -> Point:
     return slower - apart / 6, bound, settled, runs.stick_share[0], why, slow_y - aside / 6
 
 
-def _by_runs(accuracy: float, n_springs: int | None = None, steps_per_period: int | None = None) -> Friction:
-    return partial(_runs, n_springs=n_springs, steps_per_period=steps_per_period, accuracy=accuracy)
-
-
 def _runs(
-    case: SlidingContact, v_0: Array, n_springs: int | None, steps_per_period: int | None, accuracy: float
+    case: SlidingContact, v_0: Array, accuracy: float, n_springs: int | None = None, steps_per_period: int | None = None
 ) -> Columns:
     """One run for each velocity."""
     velocities = progress(v_0.tolist(), "COF curve", "velocities")
     found = [finish(end) for end in runs(case, velocities, resolution_of(case, n_springs, steps_per_period, accuracy))]
-    of_runs = ("cof", "cof_error", "stick_share", "cof_y")
-    cof, error, sticks, cof_y = (np.array([getattr(run, key) for run in found]) for key in of_runs)
-    settled = np.array([run.settled for run in found], dtype=bool)
-    return Columns(cof, error, settled, sticks, np.array([run.why for run in found], dtype=object), cof_y)
+    columns = {name: np.array([getattr(run, name) for run in found]) for name in Columns._fields}
+    return Columns(**{**columns, "why": columns["why"].astype(object)})
 
 
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
