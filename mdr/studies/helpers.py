@@ -24,7 +24,6 @@ from mdr.studies.work import Work
 CUT_OFF = (EOFError, pickle.UnpicklingError)  #: where a pipe ends before a pickle, or within
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 KNOWN = {"mdr", "numpy", "builtins"}  #: packages that are the same in every process
-LOOK = 0.2  #: s between two looks whether the study has been ended
 
 
 class Lost(RuntimeError):
@@ -43,11 +42,9 @@ class Helper:
         self.ready = self._ask(work) is True
 
     def _end_with(self) -> None:
-        """End the process as soon as the study has been ended, or when it ends by itself."""
-        while self.process.poll() is None:
-            if self.ended.wait(LOOK):
-                self.process.kill()
-                return
+        """End the process as soon as the study has been ended; one that has ended by itself is left alone."""
+        self.ended.wait()
+        self.process.kill()
 
     def compute(self, units: range) -> Points:
         """The points of some units. Raises what computing them raised, or Lost."""
