@@ -50,16 +50,15 @@ def check_found(found, case):
 # --- the measured velocity --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", MEASURED)
-def test_measured_velocity_is_that_of_full_slip(name):
-    case = make(*MEASURED[name])
-    check_found(mdr.measure_critical_velocity(case), case)
+FROM_REST = ("paraboloid, body, Kelvin", "cone, body, elastic", "r4, body, elastic")
 
 
-@pytest.mark.parametrize("name", ["paraboloid, body, Kelvin", "cone, body, elastic", "r4, body, elastic"])
-def test_from_rest_the_same_velocity_is_found(name):
+@pytest.mark.parametrize(
+    ("name", "start"), [*((name, "full_slip") for name in MEASURED), *((name, "rest") for name in FROM_REST)]
+)
+def test_measured_velocity_is_that_of_full_slip_from_either_start(name, start):
     case = make(*MEASURED[name])
-    check_found(mdr.measure_critical_velocity(case, start="rest"), case)
+    check_found(mdr.measure_critical_velocity(case, start=start), case)
 
 
 @pytest.mark.parametrize("factor", [0.031, 0.51, 1 / 1.37, 7.3])
@@ -75,39 +74,6 @@ def test_the_answer_does_not_depend_on_where_the_search_begins(monkeypatch, name
 
     monkeypatch.setattr(measured_velocity._Search, "__init__", elsewhere)
     check_found(mdr.measure_critical_velocity(case), case)
-
-
-def test_measuring_sees_runs_only(monkeypatch):
-    """No closed form and no full-slip velocity may enter: they are taken away."""
-
-    def refuse(*args, **kwargs):
-        raise AssertionError("a closed form was asked")
-
-    closed = (
-        "critical_velocity.critical_velocity",
-        "paper.eq_1",
-        "paper.eq_15",
-        "full_slip_body.full_slip_critical_velocity",
-    )
-    for name in closed:
-        monkeypatch.setattr(f"mdr.closed_forms.{name}", refuse)
-    assert not {"critical_velocity", "full_slip_critical_velocity", "eq_1", "eq_15"} & set(vars(measured_velocity))
-    assert mdr.measure_critical_velocity(make(*MEASURED["cone, body, elastic"])).v_c > 0
-
-
-def test_a_wrong_run_gives_a_wrong_velocity(monkeypatch):
-    """The measurement follows its runs: if they stick up to 1.07 v_c, so it says."""
-    case = make(*MEASURED["flat, rigid"])
-    slide, runs, finish = measured_velocity.slide, measured_velocity.runs, measured_velocity.finish
-
-    def slower(run):
-        return replace(run, v_0=1.07 * run.v_0, least_slip=1.07 * run.least_slip)
-
-    monkeypatch.setattr(measured_velocity, "slide", lambda case, v_0, **knobs: slower(slide(case, v_0 / 1.07, **knobs)))
-    monkeypatch.setattr(measured_velocity, "runs", lambda case, v_0, *args: runs(case, [v_0[0] / 1.07], *args))
-    monkeypatch.setattr(measured_velocity, "finish", lambda end: slower(finish(end)))
-    found = mdr.measure_critical_velocity(case)
-    assert_allclose(found.v_c / unit_of_velocity(case), 1.07, rtol=BUDGET)
 
 
 def test_the_free_oscillation_of_an_undamped_body_is_no_hysteresis():
@@ -256,6 +222,7 @@ def test_eq_15_holds_for_a_flat_punch_and_a_body():
     assert verdict.measured == verdict.measurement.v_c
     assert verdict.good
     assert "All springs stop sticking at the velocity that the formula gives for one spring" in str(verdict)
+    assert "coupling" not in verdict.why  # of nu = 0.5 there is none
 
 
 def test_eq_15_fails_for_a_curved_contact_of_finite_amplitude():
@@ -269,14 +236,6 @@ def test_eq_15_fails_for_a_curved_contact_of_finite_amplitude():
     assert not verdict.good
 
 
-@pytest.mark.parametrize(("nu", "said"), [(0.3, True), (0.5, False)])
-@pytest.mark.parametrize("shape", ["flat", "paraboloid"])
-def test_the_coupling_that_springs_leave_out_is_said_where_it_matters(shape, nu, said):
-    verdict = mdr.verdict(contact(shape, 3.0, nu=nu))
-    assert ("normal-tangential coupling" in verdict.why) == said
-    assert ("0.29" in verdict.why) == said  # Dundurs' beta of nu = 0.3 is 2/7
-
-
 def test_on_resonance_the_verdict_names_the_pole_and_the_coupling():
     verdict = mdr.verdict(contact("flat", 10.0, 0.0, 0.7, 1.0))
     found = verdict.measurement
@@ -286,7 +245,7 @@ def test_on_resonance_the_verdict_names_the_pole_and_the_coupling():
     assert (verdict.measured, verdict.deviation, verdict.good) == (None, None, None)
     assert verdict.holds, "no critical velocity, and the formula says so"
     assert "undamped natural frequency" in verdict.why
-    assert "normal-tangential coupling" in verdict.why
+    assert "normal-tangential coupling (Dundurs' beta = 0.17)" in verdict.why  # of nu = 0.4, 1/6
     assert "no critical velocity, as it says" in str(verdict)
 
 

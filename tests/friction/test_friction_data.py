@@ -1,6 +1,7 @@
 """Measured friction: read with its units, or refused with file and line."""
 
 import numpy as np
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
@@ -21,10 +22,7 @@ def test_columns_in_any_order_with_units_and_comments(tmp_path):
 
 
 def test_what_a_curve_writes_is_read(tmp_path):
-    case = mdr.SlidingContact(
-        mdr.Cone(theta=0.05), mdr.Elastic(3e6, 0.4), 0.5, mdr.NormalOscillation(20e-6, 5e-6, 300.0)
-    )
-    curve = mdr.cof_curve(case, [1e-4, 2e-4, 3e-4])
+    curve = mdr.cof_curve(contact("cone"), [1e-4, 2e-4, 3e-4])
     curve.to_csv(tmp_path / "curve.csv")
     data = mdr.read_friction_data(tmp_path / "curve.csv")
     assert_allclose(data.cof, curve.cof, rtol=1e-15)

@@ -17,27 +17,25 @@ UNIT = CASE.unit_velocity
 
 @pytest.fixture
 def world(monkeypatch):
-    """In the place of slide(): friction is reduced, springs stick, up to ends(start, steps, n_periods), in Eq. (1)."""
+    """In the place of runs: friction is reduced, springs stick, up to ends(start, steps), in Eq. (1)."""
 
     def make(ends, settled=lambda v, start: True):
-        def slide(case, v_0, *, start, n_springs, steps_per_period, n_periods=50):
-            end = ends(start, steps_per_period, n_periods) * UNIT
+        def run(case, v_0, start, steps):
+            end = ends(start, steps) * UNIT
             free = v_0 > end
             return SimpleNamespace(
                 v_0=v_0, full_cof=case.mu_0, cof=case.mu_0 - (0 if free else 0.1), cof_error=1e-6,
                 stick_share=0.0 if free else 0.5, least_slip=v_0 - end if free else 0.0,
-                settled=settled(v_0 / UNIT, start), n_springs=n_springs, steps_per_period=steps_per_period,
-                n_periods=n_periods,
+                settled=settled(v_0 / UNIT, start), to_begin_from=None,
             )  # fmt: skip
 
-        monkeypatch.setattr(measured_velocity, "slide", slide)
+        def slide(case, v_0, *, start, n_springs, steps_per_period):
+            return run(case, v_0, start, steps_per_period)
 
         def runs(case, velocities, knobs, near):
-            for v_0 in velocities:
-                run = slide(case, v_0, start=knobs.start, n_springs=knobs.n_springs, steps_per_period=knobs.steps)
-                run.to_begin_from = None
-                yield run
+            return (run(case, v_0, knobs.start, knobs.steps) for v_0 in velocities)
 
+        monkeypatch.setattr(measured_velocity, "slide", slide)
         monkeypatch.setattr(measured_velocity, "runs", runs)
         monkeypatch.setattr(measured_velocity, "finish", lambda end: end)
 
@@ -81,7 +79,7 @@ def test_stick_that_never_ends_has_no_v_c(world):
 def test_stick_that_only_finer_steps_find_is_found(world):
     """The first run without stick is at 1.37 times what a fast run says; there finer steps stick."""
     coarse = default_steps(CASE)
-    world(lambda start, steps, _: 0.83 if steps <= coarse else 1.3)
+    world(lambda start, steps: 0.83 if steps <= coarse else 1.3)
     found = mdr.measure_critical_velocity(CASE)
     assert found.v_c == pytest.approx(1.3 * UNIT, rel=1e-4)
 
@@ -195,7 +193,7 @@ def test_a_body_thrown_for_an_instant_has_no_resonance(world):
 
 def test_stick_that_no_finer_step_lets_end_has_no_v_c(world):
     coarse = default_steps(CASE)
-    world(lambda start, steps, _: 0.83 if steps <= coarse else 1e9)
+    world(lambda start, steps: 0.83 if steps <= coarse else 1e9)
     assert mdr.measure_critical_velocity(CASE).kind == "none"
 
 

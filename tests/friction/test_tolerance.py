@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
@@ -73,21 +74,12 @@ def test_the_amplitude_of_a_waveform_is_an_input():
 
 
 def test_what_a_case_cannot_have_is_moved_to_what_it_can():
-    case = mdr.SlidingContact(
-        mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.48), 0.5, mdr.NormalOscillation(20e-6, 19.9e-6, 314.0)
-    )
-    found = mdr.tolerance(case, 1e-3, by=0.5)
+    found = mdr.tolerance(contact("flat", 1.005, nu=0.48), 1e-3, by=0.5)
     assert found.inputs["material.nu"] == pytest.approx((0.24, 0.5), rel=1e-8)
 
 
 def test_a_body_is_varied_by_runs_and_a_run_that_does_not_settle_is_named(monkeypatch):
-    case = mdr.SlidingContact(
-        mdr.Paraboloid(5e-3),
-        mdr.Elastic(3e6, 0.3),
-        0.5,
-        mdr.NormalOscillation(20e-6, 4e-6, 314.0),
-        mdr.SpringPull(2e3, 0.1),
-    )
+    case = replace(contact("paraboloid", 5.0, du_z=4e-6), pull=mdr.SpringPull(2e3, 0.1))
     v_0 = 0.5 * mdr.critical_velocity(case)
     found = mdr.tolerance(case, v_0, fields=["m"])
     heavy = replace(case, pull=mdr.SpringPull(2e3, 0.11))

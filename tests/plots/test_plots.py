@@ -1,5 +1,6 @@
 """Figures draw what the records say; small made-up records stand in for runs and curves."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import matplotlib
@@ -18,19 +19,9 @@ FREE, STICK, SLIP, SLIP_BACK = range(4)
 def made_up_curve(v_c=0.04, static=0.3, **changes):
     v_0 = np.linspace(0.0, 0.05, 6)
     cof = np.minimum(0.5, static + 5 * v_0)
-    curve = SimpleNamespace(
-        v_0=v_0,
-        cof=cof,
-        cof_error=np.full(6, 1e-5),
-        settled=np.ones(6, dtype=bool),
-        stick_share=np.zeros(6),
-        v_c=v_c,
-        mu_0=0.5,
-        full_cof=0.5,
-        static_cof=static,
-        static_cof_back=None,
-    )
-    return SimpleNamespace(**{**vars(curve), **changes})
+    known = {"cof_error": np.full(6, 1e-5), "settled": np.ones(6, dtype=bool), "stick_share": np.zeros(6)}
+    scales = {"v_c": v_c, "mu_0": 0.5, "full_cof": 0.5, "static_cof": static}
+    return replace(mdr.CofCurve(v_0, cof, **known, **scales), **changes)
 
 
 def made_up_run(n_t=64, v_0=1e-3):

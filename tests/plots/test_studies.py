@@ -4,15 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
 from mdr.plots import studies
 from mdr.tools.status import Status
 
-CASE = mdr.SlidingContact(
-    mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.5, tau=1e-3), 0.5, mdr.NormalOscillation(20e-6, 5e-6, 300.0)
-)
+CASE = contact("paraboloid", 4.0, 0.3, mu_0=0.5)
 SHAPES = [mdr.Paraboloid(R=5e-3), mdr.Cone(theta=0.05)]
 ALPHA, V, T = [0.6, 0.1, 0.3], [0.2, 0.4, 0.8, 1.2], [0.1, 1.0]
 
