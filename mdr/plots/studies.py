@@ -8,7 +8,7 @@ are drawn on a logarithmic scale.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,28 +36,212 @@ LABELS = {
 ABSENT = (("failed", Status.FAILED), ("not computed", Status.MISSING))
 
 
-def plot(study: Study, quantity: str | None = None, levels: Sequence[float] | None = None) -> Figure:
-    """Draw the picture that suits the axes: curves along one, a map or curves over two, small multiples over three.
+class DrawnStudy:
+    """Base of studies, which draw themselves. Values are in SI, but for those of axes, which take a prefix."""
 
-    quantity: by default the first. levels: contours of maps, by default some round ones. Across stands the velocity
-    where there is one, and else the last axis of numbers; the multiples go over texts where there are any. Axes of one
-    value are left out. Raises ValueError for a study of other axes.
-    """
-    quantity = study.quantities[0] if quantity is None else quantity
-    lone = {axis.path: axis.values[0] for axis in study.grid if len(axis) == 1}
-    study = study.select(lone) if len(lone) < len(study.axes) else study
-    numbers = [axis.path for axis in study.grid if axis.is_numeric]
-    if not numbers:
-        raise ValueError(f"no axis of numbers to draw along; the study has {', '.join(study.axes)}")
-    x = next((path for path in numbers if path in ("v_0", "v_0/v_c")), numbers[-1])
-    if len(study.axes) == 3:
-        rest = [path for path in study.axes if path != x]
-        over = next((path for path in rest if path not in numbers), min(rest, key=lambda path: len(study.axes[path])))
-        is_map = len([path for path in rest if path in numbers and path != over]) == 1
-        return plot_multiples(study, quantity, over, x, **_contours(study, quantity, levels if is_map else ()))
-    if len(study.axes) == 2 and len(numbers) == 2:
-        return cast("Figure", plot_map(study, quantity, x, **_contours(study, quantity, levels)).figure)
-    return cast("Figure", plot_curves(study, quantity, x).figure)
+    def plot(self: Study, quantity: str | None = None, levels: Sequence[float] | None = None) -> Figure:
+        """Draw the picture that suits the axes: curves along one, a map or curves over two, small multiples over three.
+
+        Across stands the velocity where there is one, and else the last axis of numbers; the multiples go over texts
+        where there are any. Axes of one value are left out.
+
+        Parameters
+        ----------
+        quantity : str, optional
+            What is drawn. None: the first quantity.
+        levels : sequence of float, optional
+            Contours of maps. None: some round values; an empty list: none.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+
+        Raises
+        ------
+        ValueError
+            For a study of other axes.
+        """
+        quantity = self.quantities[0] if quantity is None else quantity
+        lone = {axis.path: axis.values[0] for axis in self.grid if len(axis) == 1}
+        study = self.select(lone) if len(lone) < len(self.axes) else self
+        numbers = [axis.path for axis in study.grid if axis.is_numeric]
+        if not numbers:
+            raise ValueError(f"no axis of numbers to draw along; the study has {', '.join(study.axes)}")
+        x = next((path for path in numbers if path in ("v_0", "v_0/v_c")), numbers[-1])
+        if len(study.axes) == 3:
+            rest = [path for path in study.axes if path != x]
+            texts = [path for path in rest if path not in numbers]
+            over = texts[0] if texts else min(rest, key=lambda path: len(study.axes[path]))
+            contours = _contours(study, quantity, levels if len(texts) < 2 else ())  # two of texts leave curves
+            figure: Figure = study.plot_multiples(quantity, over, x, **contours)
+        elif len(study.axes) == 2 and len(numbers) == 2:
+            figure = study.plot_map(quantity, x, **_contours(study, quantity, levels)).figure
+        else:
+            figure = study.plot_curves(quantity, x).figure
+        return figure
+
+    def plot_map(
+        self: Study,
+        quantity: str,
+        x: str | None = None,
+        ax: Axes | None = None,
+        *,
+        levels: Sequence[float] = (),
+        limits: tuple[float, float] | None = None,
+        log: bool = False,
+        colorbar: bool = True,
+    ) -> Axes:
+        """Draw a quantity over the two axes of a study in colours.
+
+        The critical velocity is dashed where an axis is v_0/v_c, or v_0.
+
+        Parameters
+        ----------
+        quantity : str
+            What is drawn.
+        x : str, optional
+            Path of the axis across. None: the last one.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw. None makes a new figure.
+        levels : sequence of float
+            Contours to draw and label.
+        limits : (float, float), optional
+            Of the colours. None: those of the values.
+        log : bool
+            Logarithmic colours.
+        colorbar : bool
+            Draw the bar of the colours.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it was drawn.
+        """
+        from matplotlib.colors import LogNorm, Normalize
+
+        study = _without_single(self)
+        across, up = _two_axes(study, x)
+        order = np.ix_(np.argsort(up.values), np.argsort(across.values))
+        values, status = (_over(study, up, across, one)[order] for one in (study[quantity], study.status))
+        norm = (LogNorm if log else Normalize)(*(limits or _limits(values, log)))
+        with style():
+            ax = axes_of(ax)
+            factors = [_scale(ax, which, axis) for which, axis in (("x", across), ("y", up))]
+            centres = [np.sort(axis.values) * factor for axis, factor in zip((across, up), factors, strict=True)]
+            edges = [_edges(axis, places) for axis, places in zip((across, up), centres, strict=True)]
+            shown = np.ma.masked_invalid(values)
+            mesh = ax.pcolormesh(*edges, shown, norm=norm, cmap="viridis", rasterized=True)
+            if len(levels) and min(values.shape) > 1:
+                lines = ax.contour(*centres, shown, levels=sorted(levels), colors="white", linewidths=1.2)
+                ax.clabel(lines, fmt="%g", fontsize=9)
+            for line in _critical(study, (across, up), factors):
+                _draw_critical(ax, line)
+            _mark(ax, edges, centres, ~np.isfinite(values), status)
+            if colorbar:
+                _colorbar(ax.figure, mesh, ax, study, quantity)
+        return ax
+
+    def plot_curves(self: Study, quantity: str, x: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draw a family of curves over one axis of a study, one for each value of its other axis, if it has two.
+
+        Parameters
+        ----------
+        quantity : str
+            What is drawn.
+        x : str, optional
+            Path of the axis across. None: the last one.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw. None makes a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it was drawn.
+        """
+        study = _without_single(self)
+        across, by = _one_or_two_axes(study, x)
+        values = _over(study, by, across, study[quantity]) if by else study[quantity][None]
+        status = _over(study, by, across, study.status) if by else study.status[None]
+        names = [f"{_value(by, i)}" for i in range(len(by))] if by else [None]
+        with style():
+            ax = axes_of(ax)
+            factor = _scale(ax, "x", across)
+            places = np.asarray(across.values) * factor
+            order = np.argsort(places)
+            shades = colours(len(names))
+            for i, (row, fate, colour, name) in enumerate(zip(values, status, shades, names, strict=True)):
+                named = len(names) <= 10 or i in (0, len(names) - 1)  # else first and last
+                ax.plot(places[order], row[order], color=colour, label=name if named else None)
+                loose = fate == Status.UNSETTLED
+                ax.plot(places[loose], row[loose], "o", mfc="white", mec=colour, markersize=5)
+            ax.set_ylabel(_name(quantity, study.units[quantity]))
+            _explain(ax, status, by)
+        return ax
+
+    def plot_multiples(
+        self: Study, quantity: str, over: str, x: str | None = None, *, columns: int = 3, **knobs: Any
+    ) -> Figure:
+        """Draw a map, or a family of curves where one or two axes are left, for each value of an axis.
+
+        All share their scales.
+
+        Parameters
+        ----------
+        quantity : str
+            What is drawn.
+        over : str
+            Path of the axis that has one picture for each of its values.
+        x : str, optional
+            Path of the axis across. None: the last one.
+        columns : int
+            How many pictures stand side by side, at most.
+        **knobs
+            As in `plot_map`, for maps.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+        if columns < 1:
+            raise ValueError(f"columns must be at least 1, got {columns!r}")
+        axis = _axis(self, over)
+        parts = [self.select({over: axis.values[i]}) for i in range(len(axis))]
+        is_map = len(parts[0].axes) == 2 and all(one.is_numeric for one in parts[0].grid)
+        if knobs and not is_map:
+            raise TypeError(f"{', '.join(knobs)} is for maps, and these are curves")
+        columns = min(columns, len(parts))
+        rows = -(-len(parts) // columns)
+        with style():
+            size = (1.2 + 2.9 * columns, 0.8 + 2.5 * rows)
+            fig, grid = subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
+            if is_map:
+                knobs = {"limits": _limits(self[quantity], knobs.get("log", False))} | knobs
+            marks: dict[str, Any] = {}
+            for i, (part, ax) in enumerate(zip(parts, grid.ravel(), strict=False)):
+                if is_map:
+                    part.plot_map(quantity, x, ax, colorbar=False, **knobs)
+                else:
+                    part.plot_curves(quantity, x, ax)
+                if (i or is_map) and (legend := ax.get_legend()):
+                    names = (text.get_text() for text in legend.texts)
+                    marks |= dict(zip(names, legend.legend_handles, strict=True))
+                    legend.remove()
+                ax.set_title(_value(axis, i, name=True), fontsize=10)
+                if i % columns:
+                    ax.set_ylabel("")
+                if i + columns < len(parts):
+                    ax.set_xlabel("")
+            for ax in grid.ravel()[len(parts) :]:
+                ax.set_visible(False)
+            first = grid.ravel()[0].get_legend()
+            known = {text.get_text() for text in first.texts} if first else set()
+            if marks := {name: mark for name, mark in marks.items() if name not in known}:
+                fig.legend(marks.values(), marks.keys(), loc="outside lower left", ncols=3)
+            if is_map:
+                _colorbar(fig, grid.ravel()[0].collections[0], grid, self, quantity)
+        return fig
 
 
 def _contours(study: Study, quantity: str, levels: Sequence[float] | None) -> dict[str, Any]:
@@ -69,119 +253,6 @@ def _contours(study: Study, quantity: str, levels: Sequence[float] | None) -> di
         rim = 0.01 * (high - low)  # on a plateau at an end a contour would follow rounding
         levels = [float(one) for one in MaxNLocator(6).tick_values(low, high) if low + rim < one < high - rim]
     return {"levels": levels} if len(levels) else {}
-
-
-def plot_map(
-    study: Study,
-    quantity: str,
-    x: str | None = None,
-    ax: Axes | None = None,
-    *,
-    levels: Sequence[float] = (),
-    limits: tuple[float, float] | None = None,
-    log: bool = False,
-    colorbar: bool = True,
-) -> Axes:
-    """Colours of a quantity over the two axes of a study; x is the path across, by default the last.
-
-    levels: contours to draw and label; limits: of the colours; log: logarithmic colours. Values are in SI. The critical
-    velocity is dashed where an axis is v_0/v_c, or v_0.
-    """
-    from matplotlib.colors import LogNorm, Normalize
-
-    study = _without_single(study)
-    across, up = _two_axes(study, x)
-    order = np.ix_(np.argsort(up.values), np.argsort(across.values))
-    values, status = (_over(study, up, across, one)[order] for one in (study[quantity], study.status))
-    norm = (LogNorm if log else Normalize)(*(limits or _limits(values, log)))
-    with style():
-        ax = axes_of(ax)
-        factors = [_scale(ax, which, axis) for which, axis in (("x", across), ("y", up))]
-        centres = [np.sort(axis.values) * factor for axis, factor in zip((across, up), factors, strict=True)]
-        edges = [_edges(axis, places) for axis, places in zip((across, up), centres, strict=True)]
-        shown = np.ma.masked_invalid(values)
-        mesh = ax.pcolormesh(*edges, shown, norm=norm, cmap="viridis", rasterized=True)
-        if len(levels) and min(values.shape) > 1:
-            lines = ax.contour(*centres, shown, levels=sorted(levels), colors="white", linewidths=1.2)
-            ax.clabel(lines, fmt="%g", fontsize=9)
-        for line in _critical(study, (across, up), factors):
-            _draw_critical(ax, line)
-        _mark(ax, edges, centres, ~np.isfinite(values), status)
-        if colorbar:
-            _colorbar(ax.figure, mesh, ax, study, quantity)
-    return ax
-
-
-def plot_curves(study: Study, quantity: str, x: str | None = None, ax: Axes | None = None) -> Axes:
-    """Curves of a quantity over one axis of a study, one for each value of its other axis, if it has two.
-
-    x is the path across, by default the last. Values are in SI but for the axis itself, which takes a prefix.
-    """
-    study = _without_single(study)
-    across, by = _one_or_two_axes(study, x)
-    values = _over(study, by, across, study[quantity]) if by else study[quantity][None]
-    status = _over(study, by, across, study.status) if by else study.status[None]
-    names = [f"{_value(by, i)}" for i in range(len(by))] if by else [None]
-    with style():
-        ax = axes_of(ax)
-        factor = _scale(ax, "x", across)
-        places = np.asarray(across.values) * factor
-        order = np.argsort(places)
-        shades = colours(len(names))
-        for i, (row, fate, colour, name) in enumerate(zip(values, status, shades, names, strict=True)):
-            named = len(names) <= 10 or i in (0, len(names) - 1)  # else first and last
-            ax.plot(places[order], row[order], color=colour, label=name if named else None)
-            loose = fate == Status.UNSETTLED
-            ax.plot(places[loose], row[loose], "o", mfc="white", mec=colour, markersize=5)
-        ax.set_ylabel(_name(quantity, study.units[quantity]))
-        _explain(ax, status, by)
-    return ax
-
-
-def plot_multiples(
-    study: Study, quantity: str, over: str, x: str | None = None, *, columns: int = 3, **knobs: Any
-) -> Figure:
-    """Small multiples: a map, or a family of curves where one or two axes are left, for each value of `over`.
-
-    All share their scales. x is the path across; knobs are those of `plot_map` for maps.
-    """
-    if columns < 1:
-        raise ValueError(f"columns must be at least 1, got {columns!r}")
-    axis = _axis(study, over)
-    parts = [study.select({over: axis.values[i]}) for i in range(len(axis))]
-    is_map = len(parts[0].axes) == 2 and all(one.is_numeric for one in parts[0].grid)
-    if knobs and not is_map:
-        raise TypeError(f"{', '.join(knobs)} is for maps, and these are curves")
-    columns = min(columns, len(parts))
-    rows = -(-len(parts) // columns)
-    with style():
-        size = (1.2 + 2.9 * columns, 0.8 + 2.5 * rows)
-        fig, grid = subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
-        if is_map:
-            knobs = {"limits": _limits(study[quantity], knobs.get("log", False))} | knobs
-        marks: dict[str, Any] = {}
-        for i, (part, ax) in enumerate(zip(parts, grid.ravel(), strict=False)):
-            if is_map:
-                plot_map(part, quantity, x, ax, colorbar=False, **knobs)
-            else:
-                plot_curves(part, quantity, x, ax)
-            if (i or is_map) and (legend := ax.get_legend()):
-                marks |= {text.get_text(): mark for text, mark in zip(legend.texts, legend.legend_handles, strict=True)}
-                legend.remove()
-            ax.set_title(_value(axis, i, name=True), fontsize=10)
-            if i % columns:
-                ax.set_ylabel("")
-            if i + columns < len(parts):
-                ax.set_xlabel("")
-        for ax in grid.ravel()[len(parts) :]:
-            ax.set_visible(False)
-        first = grid.ravel()[0].get_legend()
-        known = {text.get_text() for text in first.texts} if first else set()
-        if marks := {name: mark for name, mark in marks.items() if name not in known}:
-            fig.legend(marks.values(), marks.keys(), loc="outside lower left", ncols=3)
-        if is_map:
-            _colorbar(fig, grid.ravel()[0].collections[0], grid, study, quantity)
-    return fig
 
 
 def _critical(study: Study, axes: tuple[Axis, Axis], factors: Sequence[float]) -> Iterator[list[Array]]:

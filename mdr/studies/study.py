@@ -5,12 +5,12 @@ Its frame is the study without its values: axes, quantities, and the case, versi
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from mdr.case.contact import SlidingContact
 from mdr.files.case_files import written
 from mdr.files.toml_text import CaseFileError
+from mdr.plots.studies import DrawnStudy
 from mdr.studies.axes import Axis, without_addresses
+from mdr.studies.formats import packed, table
 from mdr.studies.points import Points
 from mdr.studies.work import Layout, Work
 from mdr.tools import version
@@ -29,10 +31,6 @@ from mdr.tools.messages import most_frequent, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.status import Status
 from mdr.tools.summary import Printed
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -62,7 +60,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(Printed, Tabled, ArrayRecord, Frame):
+class Study(Printed, Tabled, DrawnStudy, ArrayRecord, Frame):
     """A grid of cases: `study["cof"]` is an array whose axes follow the order of `study.axes`.
 
     A point that failed is NaN where it failed, says FAILED in `status`, and why in `why`; a run that did not settle
@@ -161,8 +159,6 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
         path : str or path-like
             The file.
         """
-        from mdr.studies.formats import packed
-
         write_whole(Path(path), packed(self))
 
     def table(self) -> str:
@@ -173,8 +169,6 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
         str
             What `to_csv` writes.
         """
-        from mdr.studies.formats import table
-
         return table(self)
 
     def to_xarray(self) -> Any:
@@ -185,99 +179,11 @@ class Study(Printed, Tabled, ArrayRecord, Frame):
         xarray.Dataset
             Quantities with labelled axes and units.
         """
-        from mdr.studies.formats import packed
-
         try:
             import xarray
         except ImportError:
             raise ImportError("to_xarray needs xarray: .venv/bin/pip install -e '.[xarray]'") from None
         return xarray.load_dataset(BytesIO(packed(self)), engine="scipy")
-
-    def plot(self, quantity: str | None = None, levels: Sequence[float] | None = None) -> Figure:
-        """Draw the figure that suits the axes; see `mdr.plots.studies.plot`.
-
-        Parameters
-        ----------
-        quantity : str, optional
-            What is drawn. None: the first quantity.
-        levels : sequence of float, optional
-            Contours of maps. None: some round values; an empty list: none.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-            The figure.
-        """
-        from mdr.plots.studies import plot
-
-        return plot(self, quantity, levels)
-
-    def plot_map(self, quantity: str, x: str | None = None, ax: Axes | None = None, **knobs: Any) -> Axes:
-        """Draw a quantity over two axes in colours; see `mdr.plots.studies.plot_map`.
-
-        Parameters
-        ----------
-        quantity : str
-            What is drawn.
-        x : str, optional
-            Path of the axis across. None: the last one.
-        ax : matplotlib.axes.Axes, optional
-            Where to draw. None makes a new figure.
-        **knobs
-            As in `mdr.plots.studies.plot_map`.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Where it was drawn.
-        """
-        from mdr.plots.studies import plot_map
-
-        return plot_map(self, quantity, x, ax, **knobs)
-
-    def plot_curves(self, quantity: str, x: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draw a family of curves; see `mdr.plots.studies.plot_curves`.
-
-        Parameters
-        ----------
-        quantity : str
-            What is drawn.
-        x : str, optional
-            Path of the axis across. None: the last one.
-        ax : matplotlib.axes.Axes, optional
-            Where to draw. None makes a new figure.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Where it was drawn.
-        """
-        from mdr.plots.studies import plot_curves
-
-        return plot_curves(self, quantity, x, ax)
-
-    def plot_multiples(self, quantity: str, over: str, x: str | None = None, **knobs: Any) -> Figure:
-        """Draw a map or a family of curves for each value of an axis; see `mdr.plots.studies.plot_multiples`.
-
-        Parameters
-        ----------
-        quantity : str
-            What is drawn.
-        over : str
-            Path of the axis that has one picture for each of its values.
-        x : str, optional
-            Path of the axis across. None: the last one.
-        **knobs
-            As in `mdr.plots.studies.plot_multiples`.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-            The figure.
-        """
-        from mdr.plots.studies import plot_multiples
-
-        return plot_multiples(self, quantity, over, x, **knobs)
 
     def __repr__(self) -> str:
         n = self.status.size
