@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, as_given
+from mdr.case.contact import OF_FACE, SlidingContact, as_given
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
@@ -319,10 +319,9 @@ def _alike(names: list[str], correlation: Array) -> list[str]:
 
 def _beyond(case: SlidingContact, model: _Model) -> list[str]:
     """Friction above the local coefficient, which no contact shows."""
-    if case.tau_0 or "tau_0" in {one.path for one in model.free}:
-        return []
+    free = {one.path for one in model.free}
     above = model.data.cof - case.mu_0 - (0.0 if model.data.error is None else ERRORS * model.data.error)
-    if "mu_0" in {one.path for one in model.free} or case.is_shaken or not above.max() > 0:
+    if case.tau_0 or free & set(OF_FACE) or case.is_shaken or not above.max() > 0:
         return []
     return [f"cof: measured up to {model.data.cof.max():.4g}, above mu_0 = {case.mu_0:.4g}; fit mu_0 too"]
 

@@ -94,13 +94,6 @@ def test_a_load_is_held_while_the_modulus_is_sought():
     assert_allclose(case.oscillation.u_z0, mdr.static_depth(BALL, case.material, load), rtol=1e-12)
 
 
-def test_a_body_is_found_by_runs():
-    v_0 = 0.5 * mdr.critical_velocity(BODY)
-    wanted = mdr.slide(BODY, v_0).cof
-    found = mdr.find(BODY, "du_z", v_0=v_0, cof=wanted, within=(3e-6, 5e-6))
-    assert_allclose(found.values, [4e-6], rtol=1e-3)  # of runs whose errors are 1e-5 of mu_0
-
-
 def test_trial_runs_are_coarse_and_the_answer_is_not(monkeypatch):
     """The side of a value needs a run whose error is less than what it misses; the value itself full accuracy."""
     asked = []

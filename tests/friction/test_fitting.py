@@ -97,8 +97,6 @@ def test_a_phase_is_fitted_to_both_ways_from_zero():
     assert abs(found.correlation[0, 1]) < 1
     least, most = found.curve.v_0[[0, -1]]
     assert least < -2.5e-3 < 2.5e-3 < most
-    ax = found.plot()
-    assert len(ax.figure.axes) == 2
 
 
 def test_signs_that_no_unshaken_contact_shows_are_refused():

@@ -246,7 +246,7 @@ def test_on_resonance_the_verdict_names_the_pole_and_the_coupling():
     assert verdict.holds, "no critical velocity, and the formula says so"
     assert "undamped natural frequency" in verdict.why
     assert "normal-tangential coupling (Dundurs' beta = 0.17)" in verdict.why  # of nu = 0.4, 1/6
-    assert "no critical velocity, as it says" in str(verdict)
+    assert str(verdict).startswith("Eq. (15) holds: no critical velocity, as it says. ")
 
 
 # --- beyond the usual --------------------------------------------------------------------------------------------
@@ -288,4 +288,5 @@ def test_a_curved_contact_on_a_whole_multiple_has_no_critical_velocity(n):
     """The n-th harmonic of its force drives the undamped body; Eq. (15) is finite and false."""
     verdict = mdr.verdict(contact("paraboloid", 3.0, 0.0, 1.5, float(n)))
     assert (verdict.measured, verdict.holds, verdict.full_slip) == (None, False, math.inf)
+    assert str(verdict).startswith(f"Eq. (15) fails: no critical velocity, against {verdict.eq_15:.6g} m/s. ")
     assert "a harmonic of the normal force drives the body" in verdict.why

@@ -116,9 +116,3 @@ def test_a_store_knows_the_load_and_goes_on(tmp_path):
         assert mdr.sweep(**{**asked, "held": other}).identity != whole.identity
     with pytest.raises(mdr.studies.StudyError, match=r"case\.load is 5\.0 there and 6\.0 here"):
         mdr.sweep(**{**asked, "held": {**asked["held"], "load": 6}}, store=tmp_path)
-
-
-def test_in_python_what_is_held_is_named():
-    axes = {"material.E": [2.7e9, 3.3e9]}
-    found = mdr.sweep(single(TABLES, {}), axes, quantities=["mean_F_N"], held={"load": 5, "tan_delta": 0.03})
-    assert_allclose(found["mean_F_N"], study(TABLES, axes, ["mean_F_N"])["mean_F_N"], rtol=0)

@@ -15,15 +15,6 @@ from mdr.tools.progress import Ended
 from mdr.tools.status import Status
 
 
-def test_a_case_that_cannot_be_built_is_a_failure_of_its_points():
-    study = mdr.sweep(RIGID, {"oscillation.u_z0": [-1e-3, 6e-6], "v_0": [1e-4, 2e-4]}, quantities=["cof", "v_c"])
-    assert_array_equal(study.status, [[Status.FAILED] * 2, [Status.DONE] * 2])
-    assert np.isnan(study["cof"][0]).all()
-    assert np.isnan(study["v_c"][0]).all()
-    assert study.why[0, 0].startswith("u_z0 + du_z = -0.000998 m: the indenter never touches")
-    assert study.why[1, 0] == ""
-
-
 def test_a_path_that_some_records_lack_is_a_failure_of_their_points():
     study = mdr.sweep(RIGID, {"indenter": SHAPES, "indenter.R": [1e-3]}, quantities=["v_c"])
     assert_array_equal(study.status.ravel(), [Status.DONE, Status.FAILED, Status.FAILED])

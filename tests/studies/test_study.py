@@ -35,6 +35,8 @@ def test_what_it_knows(study):
     assert study.axes["indenter"] == tuple(SHAPES)
     assert study.units == {"v_0/v_c": "-", "indenter": "", "oscillation.u_z0": "m", "cof": "-", "v_c": "m/s"}
     assert study.complete
+    assert_array_equal(study.status == Status.FAILED, [[[False, True, True, False]] * 3] * 3)  # there is no such case
+    assert_array_equal(np.isnan(study.values), [study.status == Status.FAILED] * 2)
     assert mdr.parse_case(study.case) == RIGID
     assert len(study.identity) == 64
 
