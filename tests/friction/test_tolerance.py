@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import contact
+from horn import HORN, written
 from numpy.testing import assert_allclose
 
 import mdr
@@ -15,44 +16,26 @@ from mdr.friction.cof_curve import friction_at
 from mdr.given.case_file import case_of
 from mdr.tools.notation import shown
 
-TABLES = {
-    "mu_0": 0.3,
-    "indenter": {"shape": "Sphere", "R": 3e-3},
-    "material": {"model": "KelvinVoigt", "E": 3e9, "nu": 0.4, "tan_delta": 0.03},
-    "oscillation": {"frequency": 20e3, "load": 5.0, "du_z": 3.15e-6},
-}
 V_0, BY = 0.01, 0.1
-
-
-def written(path, share):
-    """Case and velocity with one number of the file another."""
-    tables = {name: dict(one) if isinstance(one, dict) else one for name, one in TABLES.items()}
-    v_0 = V_0
-    if path == "v_0":
-        v_0 *= 1 + share
-    elif path == "mu_0":
-        tables["mu_0"] *= 1 + share
-    else:
-        home = {"load": "oscillation", "frequency": "oscillation", "tan_delta": "material"}.get(path)
-        slot, _, key = path.partition(".")
-        tables[home or slot][key or path] *= 1 + share
-    return case_of(tables).case, v_0
+#: what the file gives, and the velocity
+INPUTS = {
+    "mu_0": 0.3, "indenter.R": 3e-3, "material.E": 3e9, "material.nu": 0.4, "oscillation.du_z": 3e-6,
+    "tan_delta": 0.03, "frequency": 20e3, "load": 5.0, "v_0": V_0,
+}  # fmt: skip
 
 
 def test_numbers_are_those_of_a_loop_over_files():
-    said = case_of(TABLES)
+    said = case_of(HORN)
     found = mdr.tolerance(said.case, V_0, by=BY, held=said.held)
-    fields = ["indenter.R", "material.E", "material.nu", "oscillation.du_z"]
-    asked = {*fields, "mu_0", "tan_delta", "frequency", "load", "v_0"}
-    assert set(found.cof) == set(found.v_c) == set(found.inputs) == asked
-    for path in asked:
-        for end, share in enumerate((-BY, BY)):
-            case, v_0 = written(path, share)
+    assert set(found.cof) == set(found.v_c) == set(found.inputs) == set(INPUTS)
+    for path, given in INPUTS.items():
+        for end, value in enumerate((given * (1 - BY), given * (1 + BY))):
+            case, v_0 = (said.case, value) if path == "v_0" else (written(HORN, {path: value}), V_0)
+            assert_allclose(found.inputs[path][end], value, rtol=1e-14)
             assert_allclose(found.cof[path][end], mdr.cof_curve(case, v_0).cof[0], rtol=1e-10)
             assert_allclose(found.v_c[path][end], mdr.critical_velocity(case), rtol=1e-10)
-    base = case_of(TABLES).case
-    assert found.base_cof == mdr.cof_curve(base, V_0).cof[0]
-    assert found.base_v_c == mdr.critical_velocity(base)
+    assert found.base_cof == mdr.cof_curve(said.case, V_0).cof[0]
+    assert found.base_v_c == mdr.critical_velocity(said.case)
     spread = [abs(less - more) for less, more in found.cof.values()]
     assert spread == sorted(spread, reverse=True)
     assert found.warnings == ()
@@ -60,7 +43,7 @@ def test_numbers_are_those_of_a_loop_over_files():
 
 def test_small_steps_are_the_derivative_of_eq_1():
     """Under a rigid pull v_c = mu_0 kappa omega du_z: each factor moves it by its own share, and R, E not at all."""
-    found = mdr.tolerance(case_of({**TABLES, "material": {"model": "Elastic", "E": 3e9, "nu": 0.4}}).case, V_0, by=1e-3)
+    found = mdr.tolerance(case_of({**HORN, "material": {"model": "Elastic", "E": 3e9, "nu": 0.4}}).case, V_0, by=1e-3)
     for path, power in {"mu_0": 1, "frequency": 1, "oscillation.du_z": 1, "indenter.R": 0, "material.E": 0}.items():
         assert_allclose(
             np.array(found.v_c[path]) / found.base_v_c, [(1 - 1e-3) ** power, (1 + 1e-3) ** power], rtol=1e-12
@@ -91,7 +74,7 @@ def test_a_body_is_varied_by_runs_and_a_run_that_does_not_settle_is_named(monkey
 
 
 def test_it_prints_and_is_written_as_csv(tmp_path):
-    said = case_of(TABLES)
+    said = case_of(HORN)
     found = mdr.tolerance(said.case, V_0, fields=["load", "v_0"], held=said.held)
     found.to_csv(tmp_path / "t.csv")
     load, v_0 = csv.DictReader(io.StringIO((tmp_path / "t.csv").read_text()))
