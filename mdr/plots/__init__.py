@@ -1,7 +1,7 @@
 """Figures of runs, curves, shapes and studies. They are drawn of records as they are; nothing is computed here."""
 
 from mdr.plots.curves import plot_curve, plot_fit, plot_force_curve
-from mdr.plots.figures import COLOURS, edges_of, prefix, save, style, svg_of
+from mdr.plots.figures import COLOURS, edges_of, prefix, save, style
 from mdr.plots.profile import plot_profile
 from mdr.plots.runs import (
     MODES,
@@ -34,5 +34,4 @@ __all__ = [
     "prefix",
     "save",
     "style",
-    "svg_of",
 ]

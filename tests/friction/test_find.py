@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
@@ -46,7 +47,7 @@ def eq_15_roots(v_c):
 def test_the_amplitude_of_a_waveform_is_found():
     """alpha sets the amplitudes of a series together: the waveform stays, and so does its mean."""
     wave = mdr.waveforms.sawtooth(20e-6, 2e-6, 300.0, n_harmonics=4)
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, wave)
+    case = replace(contact("paraboloid", nu=0.5), oscillation=wave)
     found = mdr.find(case, "alpha", cof=0.33, v_0=1e-4)
     (case,), (alpha,) = found.cases, found.values
     larger = case.oscillation

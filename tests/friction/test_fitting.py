@@ -5,13 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import contact
 
 import mdr
 
 TAU, MU_0 = 1e-3, 0.5
-CASE = mdr.SlidingContact(
-    mdr.Paraboloid(R=5e-3), mdr.KelvinVoigt(E=3e6, nu=0.4, tau=TAU), MU_0, mdr.NormalOscillation(20e-6, 10e-6, 300.0)
-)
+CASE = contact("paraboloid", 2.0, 300.0 * TAU, du_z=10e-6, mu_0=MU_0)
 BODY = replace(CASE, pull=mdr.SpringPull(k_x=8e3, m=0.05, c_x=2.0))
 START = replace(CASE, mu_0=0.4, material=mdr.KelvinVoigt(E=3e6, nu=0.3, tau=3e-3))
 V = mdr.critical_velocity(CASE) * np.linspace(0.05, 1.3, 20)
@@ -82,16 +81,11 @@ def test_bounds_hold_the_search_and_judge_the_interval():
     assert "wider than its bounds" in narrow.warnings[0]
 
 
-SHAKEN = mdr.SlidingContact(
-    mdr.Cone(theta=0.02), mdr.Elastic(3e6, 0.4), MU_0, mdr.NormalOscillation(20e-6, 6e-6, 300.0),
-    shake=mdr.InPlaneOscillation(300.0, du_x=5e-6, phi_x=0.8),
-)  # fmt: skip
-
-
 def test_a_phase_is_fitted_to_both_ways_from_zero():
-    both = measured(0.005, 1, SHAKEN, np.linspace(-2.5e-3, 2.5e-3, 10))
+    start = replace(contact("cone", du_z=6e-6, mu_0=MU_0), shake=mdr.InPlaneOscillation(300.0, du_x=5e-6))
+    turned = replace(start, shake=replace(start.shake, phi_x=0.8))
+    both = measured(0.005, 1, turned, np.linspace(-2.5e-3, 2.5e-3, 10))
     data = mdr.FrictionData(both.v_0, both.cof, np.full(10, 0.003))
-    start = replace(SHAKEN, shake=mdr.InPlaneOscillation(300.0, du_x=5e-6))
     found = mdr.fit(start, data, ["phi_x", "mu_0"])
     assert found.low["phi_x"] < 0.8 < found.high["phi_x"]
     assert abs(found.correlation[0, 1]) < 1

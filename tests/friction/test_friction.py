@@ -277,8 +277,7 @@ def test_at_the_zero_of_eq_15_nothing_is_claimed_that_was_not_seen():
 
 
 def test_an_oscillation_that_takes_next_to_nothing_away_has_a_critical_velocity():
-    motion, pull = mdr.NormalOscillation(2e-5, 2e-10, 300.0), mdr.SpringPull(2e4, 0.02, 4.0)
-    case = mdr.SlidingContact(mdr.FlatPunch(1e-3), mdr.Elastic(3e6, 0.5), 0.5, motion, pull)
+    case = replace(contact("flat", 1e5, du_z=2e-10), pull=mdr.SpringPull(2e4, 0.02, 4.0))
     found = mdr.measure_critical_velocity(case)
     assert_allclose(found.v_c, mdr.critical_velocity(case), rtol=BUDGET)
 

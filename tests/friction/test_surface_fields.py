@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from conftest import SHAPES
+from conftest import SHAPES, contact
 from numpy.testing import assert_allclose
 
 import mdr
@@ -131,9 +131,7 @@ def test_traction_is_cattaneos_and_mindlins(share):
 def pulled_run():
     """From rest, at hardly any oscillation: in one period the body moves by 0.6 of full slip."""
     omega = 300.0
-    case = mdr.SlidingContact(
-        mdr.Paraboloid(R=5e-3), BODY, MU_0, mdr.NormalOscillation(u_z0=DEPTH, du_z=1e-3 * DEPTH, omega=omega)
-    )
+    case = contact("paraboloid", 1e3, du_z=1e-3 * DEPTH, omega=omega, mu_0=MU_0, nu=BODY.nu, E=BODY.E)
     v_0 = 0.6 * FULL_SLIP * omega / (2 * np.pi)
     return mdr.slide(case, v_0, n_springs=2048, steps_per_period=256, n_periods=1, start="rest", record=1, lump=False)
 

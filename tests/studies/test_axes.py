@@ -1,7 +1,10 @@
 """Axes: what may vary, and what is refused before any work, in words that name path, rule and way out."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from conftest import contact
 from grids import RIGID
 
 import mdr
@@ -28,8 +31,7 @@ def test_fields_that_are_no_numbers_have_labels():
 
 def test_a_shaken_case_varies_its_shake_and_is_pulled_both_ways():
     shake = mdr.InPlaneOscillation(omega=300.0, du_x=3e-5, phi_x=1.5)
-    depth = mdr.ConstantDepth(u_z0=20e-6)
-    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
+    case = replace(contact("paraboloid"), oscillation=mdr.ConstantDepth(u_z0=20e-6), shake=shake)
     saw = mdr.InPlaneMotion(omega=300.0, x_sin=(1e-5, 5e-6))
     study = mdr.sweep(case, {"chi": [0.5, 2.0], "shake.phi_x": [0.0, 1.5], "v_0/v_c": [-1.2, 0.3]})
     assert study["cof"].shape == (2, 2, 2)
@@ -40,12 +42,11 @@ def test_a_shaken_case_varies_its_shake_and_is_pulled_both_ways():
 
 
 def test_a_shake_across_is_varied_by_its_amplitude_or_by_eta():
-    shake, depth = mdr.InPlaneOscillation(omega=300.0, du_y=1e-5), mdr.ConstantDepth(u_z0=20e-6)
-    case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5), 0.4, depth, shake=shake)
+    shake = mdr.InPlaneOscillation(omega=300.0, du_y=1e-5)
+    case = replace(contact("flat", nu=0.5), oscillation=mdr.ConstantDepth(u_z0=20e-6), shake=shake)
     by_group = mdr.sweep(case, {"eta": [0.28, 0.6, 2.0]}, quantities=("static_cof",))
-    assert np.allclose(
-        by_group["static_cof"], [0.4 * 0.96, 0.4 * 0.8, 0.0], atol=1e-12
-    )  # sqrt(1 - eta²) of a flat face
+    # sqrt(1 - eta²) of a flat face
+    assert np.allclose(by_group["static_cof"], [0.4 * 0.96, 0.4 * 0.8, 0.0], atol=1e-12)
     reach = 0.4 * case.material.mindlin_ratio * 20e-6
     by_field = mdr.sweep(case, {"shake.du_y": [0.6 * reach]}, quantities=("static_cof",))
     assert np.allclose(by_field["static_cof"], by_group["static_cof"][1])
