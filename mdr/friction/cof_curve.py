@@ -253,7 +253,9 @@ class _Asked:
                 "friction is less at a higher velocity than here, or more at a lower one, which no steady motions do"
             )
             known = known._replace(settled=known.settled & ~wrong)
-        most = 2 * full_cof(self.case)
+        if known.settled.all() and np.max(known.cof_error) <= self.case.mu_0:
+            return known
+        most = 2 * full_cof(self.case)  # all there can be
         return known._replace(cof_error=np.where(known.settled, np.minimum(known.cof_error, most), most))
 
 
