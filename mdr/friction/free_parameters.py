@@ -23,7 +23,6 @@ from mdr.tools.checks import ends
 from mdr.tools.fields import fields_of
 from mdr.tools.messages import offer, short
 
-NONE: Mapping[str, Any] = {}  #: is held
 DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
 NEAR_END = 1e-3  #: of the range: a best fit nearer to an end is at it, and no search begins nearer
 
@@ -40,13 +39,13 @@ class Parameter:
     unit: float  #: of a linear scale; 0 for that of the logarithm
 
     @classmethod
-    def of(cls, case: SlidingContact, name: Any, given: Any = None, held: Mapping[str, Any] = NONE) -> Parameter:
-        """A parameter of the case, by its name, with what is held; `given` bounds, or as far as it is sensible."""
+    def of(cls, case: SlidingContact, name: Any, given: Any, held: Mapping[str, Any]) -> Parameter:
+        """A parameter of the case, by its name, with what is held; `given`: bounds, None for as far as is sensible."""
         path = path_of(case, name)
         start = value_of(case, path, held)
         if why := _refusal(case, path, start, held):
             raise ValueError(f"{name} cannot be varied: {why}")
-        unit = natural_unit(case, path)
+        unit = natural_unit(case, path, start)
         signed = path != "mindlin_ratio" and not _refusal(case, path, -1e-9 * unit, held)
         bounds = None if given is None else _bounds(case, name, path, start, given, held)
         if signed or start == 0 or path == "mindlin_ratio" or (bounds and bounds[0] <= 0):
@@ -120,7 +119,7 @@ def path_of(case: SlidingContact, name: Any) -> str:
     raise ValueError(f"{short(name)} {meant}")
 
 
-def value_of(case: SlidingContact, path: str, held: Mapping[str, Any] = NONE) -> float:
+def value_of(case: SlidingContact, path: str, held: Mapping[str, Any]) -> float:
     """The value in the case, or what is held; zero of a group for which it has no spring, mass or depth."""
     if path in held:
         return float(held[path])
@@ -129,8 +128,8 @@ def value_of(case: SlidingContact, path: str, held: Mapping[str, Any] = NONE) ->
     return value if np.isfinite(value) else 0.0
 
 
-def natural_unit(case: SlidingContact, path: str) -> float:
-    """What the contact makes a unit of a quantity, in SI."""
+def natural_unit(case: SlidingContact, path: str, start: float) -> float:
+    """What the contact makes a unit of a quantity that has this value, in SI."""
     known, omega = resolved(case), case.omega
     depth, E_star = known.u_z_max, case.material.E_star
     k = float(case.indenter.stiffness(depth, E_star))
@@ -140,15 +139,15 @@ def natural_unit(case: SlidingContact, path: str) -> float:
         "m": depth, "s": 1 / omega, "Pa": E_star, "N": k * depth, "N/m": k, "N s/m": k / omega, "kg": k / omega**2,
         "rad/s": omega, "rad": 1.0, "-": 1.0,
     }  # fmt: skip
-    return units.get(facts_at(path).unit) or abs(value_of(case, path)) or 1.0
+    return units.get(facts_at(path).unit) or abs(start) or 1.0
 
 
-def changed(case: SlidingContact, path: str, value: float, held: Mapping[str, Any] = NONE) -> SlidingContact:
+def changed(case: SlidingContact, path: str, value: float, held: Mapping[str, Any]) -> SlidingContact:
     """The case with another value at a path, and what is held."""
     return case_of(case, {**held, path: value})
 
 
-def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, Any] = NONE) -> str:
+def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, Any]) -> str:
     """Why the case cannot have this value; "" where it can."""
     try:
         at_rest(changed(case, path, value, held))
@@ -157,7 +156,7 @@ def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, A
     return ""
 
 
-def allowed(case: SlidingContact, path: str, start: float, end: float, held: Mapping[str, Any] = NONE) -> float:
+def allowed(case: SlidingContact, path: str, start: float, end: float, held: Mapping[str, Any]) -> float:
     """The end of a range, or the value nearest to it that the case can have."""
     if not _refusal(case, path, end, held):
         return end

@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mdr.plots.figures import COLOURS, axes_of, edges_of, prefix, style, subplots
+from mdr.plots.figures import COLOURS, axes_of, edges_of, faint, prefix, style, subplots
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
-
-__all__ = ["plot_half_space", "plot_half_space_curve"]
 
 SEEN = 1e-6  #: share of mu_0 from which a COF across is told
 
@@ -140,7 +138,7 @@ def plot_half_space_curve(curve: Any, ax: Axes | None = None) -> Axes:
         if not settled.all():
             ax.plot([], [], "o", mfc="white", mec="0.3", label="not settled")
         for level in {curve.full_cof, np.copysign(curve.full_cof, v[0])}:
-            ax.axhline(level, color="0.75", linewidth=0.8, zorder=0)
+            faint(ax.axhline, level)
         ax.set(xlabel=rf"pulling velocity $v_0$ [{unit}]", ylabel=r"coefficient of friction $\mu$")
         if len(ax.get_legend_handles_labels()[0]) > 1:
             ax.legend(frameon=True, edgecolor="none")
