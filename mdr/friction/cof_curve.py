@@ -61,9 +61,8 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
     static_cof: float  #: limit v_0 -> +0 [-]
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
     v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
-    static_cof_back: float | None = (
-        None  #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
-    )
+    #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
+    static_cof_back: float | None = None
     cof_y: Array | None = None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
 
     @property

@@ -194,10 +194,8 @@ def _of_partial_slip(source: PartialSlip, r: ArrayLike | None, i: int) -> Surfac
     d_c = max(d - u_x / unit, 0.0)
     stuck = np.asarray(shape.pressure(r, d_c, source.material.E_star)) if d_c > 0 else 0 * p
     stuck = np.minimum(stuck, p)  # at a rim, which either radius may miss by a rounding, p is 0 or huge
-    x = np.unique(
-        # knots of the displacement
-        np.concatenate([a * np.sin(np.linspace(0, np.pi / 2, 2048)), [c], [k for k in shape.kinks if k < a]])
-    )
+    # knots of the displacement
+    x = np.unique([*(a * np.sin(np.linspace(0, np.pi / 2, 2048))), c, *(k for k in shape.kinks if k < a)])
     w_z = d - np.asarray(shape.profile_1d(x))
     u_z = np.where(r <= a, d - np.asarray(shape.profile_3d(np.minimum(r, a))), from_displacement(x, w_z, r))
     u_x_of_r = from_displacement(x, np.minimum(u_x, unit * w_z), r)

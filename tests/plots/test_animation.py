@@ -55,9 +55,8 @@ def test_springs_end_on_the_indenter_and_lag_by_their_shear(run):
         here = run.state[k, i] != mdr.State.FREE
         assert np.max(np.abs(tops[:, 1] / 1e6 + run.u_z[k] - x[i] ** 2 / R)[here]) < second_order
         shear = tops[:, 0] - feet[:, 0]
-        assert (
-            np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()
-        )  # the rounding of places
+        # the rounding of places
+        assert np.max(np.abs(shear - picture.view.lean * run.e[k, i])) < 1e-12 * tops[:, 0].max()
 
 
 def test_the_ground_takes_along_feet_that_stick_and_is_back_after_a_period(run):
