@@ -1,7 +1,8 @@
 """Studies: grids of cases, computed in parallel, resumed after any end, and read back with named axes and units.
 
 From `axes` (what varies) and `quantities` (what is computed) follows the `work` and its order; `points` computes it,
-`engine` deals it out in chunks, `store` keeps these, `study` is what comes out, and `formats` are its files.
+`engine` deals it out in chunks, `store` keeps these, `study` is what comes out, and `formats` and
+`unpack` write and read its file.
 """
 
 from mdr.studies.quantities import CATALOGUE, Quantity

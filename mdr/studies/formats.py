@@ -1,6 +1,6 @@
-"""The files of a study: NetCDF, which `unpack` reads back, and a CSV table.
+"""The file of a study in NetCDF, which `unpack` reads back.
 
-In NetCDF every quantity stands over labelled axes, with units; status as flags; reasons as a table. Names with "/",
+In it every quantity stands over labelled axes, with units; status as flags; reasons as a table. Names with "/",
 which it forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are no numbers are
 texts. The bytes follow from the study alone.
 """
@@ -13,7 +13,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from mdr.tools.csv_table import csv_text
 from mdr.tools.status import Status
 
 Study: TypeAlias = Any  #: read by attribute
@@ -47,20 +46,6 @@ def packed(study: Study, history: str = "") -> bytes:
     _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
     file.flush()
     return buffer.getvalue()
-
-
-def table(study: Study) -> str:
-    """CSV, one row for each point: the axes, the quantities, status and reason; numbers with all their digits."""
-    places = np.indices(study.shape).reshape(len(study.grid), study.status.size)
-    columns = {(axis.path, axis.unit): map(axis.told, at) for axis, at in zip(study.grid, places, strict=True)}
-    for column, values in zip(study.columns, study.values, strict=True):
-        columns[column.name, column.unit] = map(repr, values.ravel().tolist())
-    headed = {f"{name} [{unit}]" if unit else name: values for (name, unit), values in columns.items()}
-    ends = (Status(status).name.lower() for status in study.status.ravel().tolist())
-    return csv_text({**headed, "status": ends, "why": np.ravel(study.why).tolist()})
-
-
-# --- writing NetCDF ---
 
 
 def _put_texts(file: Any, name: str, texts: tuple[str, ...], **told: Any) -> None:

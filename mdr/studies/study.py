@@ -20,13 +20,13 @@ from mdr.files.case_files import written
 from mdr.files.toml_text import CaseFileError
 from mdr.plots.studies import DrawnStudy
 from mdr.studies.axes import Axis, without_addresses
-from mdr.studies.formats import packed, table
+from mdr.studies.formats import packed
 from mdr.studies.points import Points
 from mdr.studies.work import Layout, Work
 from mdr.tools import version
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
-from mdr.tools.csv_table import Tabled
+from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.messages import most_frequent, offer, short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.status import Status
@@ -162,14 +162,20 @@ class Study(Printed, Tabled, DrawnStudy, ArrayRecord, Frame):
         write_whole(Path(path), packed(self))
 
     def table(self) -> str:
-        """The study as CSV, one row for each point, with units in the header.
+        """The study as CSV, one row for each point, with units in the header; numbers have all their digits.
 
         Returns
         -------
         str
             What `to_csv` writes.
         """
-        return table(self)
+        places = np.indices(self.shape).reshape(len(self.grid), self.status.size)
+        columns = {(axis.path, axis.unit): map(axis.told, at) for axis, at in zip(self.grid, places, strict=True)}
+        for column, values in zip(self.columns, self.values, strict=True):
+            columns[column.name, column.unit] = map(repr, values.ravel().tolist())
+        headed = {f"{name} [{unit}]" if unit else name: values for (name, unit), values in columns.items()}
+        ends = (Status(status).name.lower() for status in self.status.ravel().tolist())
+        return csv_text({**headed, "status": ends, "why": np.ravel(self.why).tolist()})
 
     def to_xarray(self) -> Any:
         """The study as an xarray.Dataset, as xarray opens the NetCDF file; needs the extra `xarray`.
