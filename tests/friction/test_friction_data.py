@@ -7,15 +7,10 @@ from numpy.testing import assert_allclose
 import mdr
 
 
-def table(tmp_path, text):
-    path = tmp_path / "data.csv"
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
 def test_columns_in_any_order_with_units_and_comments(tmp_path):
     text = "# rubber on steel\nerror;note;COF [-];v_0 [mm/s]\n0.02;b;0.35;2.0\n\n0.01;a;0.31;0.5\n"
-    data = mdr.read_friction_data(table(tmp_path, text))
+    (tmp_path / "data.csv").write_text(text, encoding="utf-8")
+    data = mdr.read_friction_data(tmp_path / "data.csv")
     assert_allclose(data.v_0, [0.5e-3, 2e-3], rtol=1e-15)
     assert_allclose(data.cof, [0.31, 0.35])
     assert_allclose(data.error, [0.01, 0.02])

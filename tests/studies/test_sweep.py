@@ -15,7 +15,7 @@ from pathlib import Path
 import grids
 import numpy as np
 import pytest
-from grids import LOG, LONG, RIGID, RUNS, SHAPES, deadly, long_study
+from grids import LOG, LONG, RIGID, RUNS, deadly, long_study
 from numpy.testing import assert_array_equal
 
 import mdr
@@ -26,16 +26,6 @@ from mdr.tools.status import Status
 
 HERE = Path(__file__).parent
 MANY = {"mu_0": [0.1 + 0.001 * k for k in range(100)]}
-
-
-def test_the_arrays_follow_the_order_of_the_axes():
-    axes = {"v_0/v_c": [0.2, 0.5, 0.8], "T": [0.1, 1.0], "indenter": SHAPES}
-    orders = [list(axes), ["T", "v_0/v_c", "indenter"], ["indenter", "T", "v_0/v_c"]]
-    one, *others = [mdr.sweep(RIGID, {path: axes[path] for path in order}) for order in orders]
-    for order, other in zip(orders[1:], others, strict=True):
-        assert list(other.axes) == order
-        assert other.shape == tuple(len(axes[path]) for path in order)
-        assert_array_equal(np.transpose(one["cof"], [orders[0].index(path) for path in order]), other["cof"])
 
 
 # --- who computes it ---
