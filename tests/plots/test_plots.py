@@ -39,23 +39,6 @@ def made_up_run(n_t=64, v_0=1e-3):
     )  # fmt: skip
 
 
-class Ball:
-    """A shape that ends at R, as a sphere does."""
-
-    R = max_radius = 1e-3
-
-    def profile_3d(self, r):
-        return self.profile_1d(r) / 2
-
-    def profile_1d(self, x):
-        if np.any(np.asarray(x) > self.R):
-            raise ValueError("beyond R")
-        return np.asarray(x) ** 2 / self.R
-
-    def contact_radius(self, d):
-        return np.sqrt(d * self.R)
-
-
 def line(ax, label):
     return next(drawn for drawn in ax.lines if drawn.get_label() == label)
 
@@ -202,11 +185,12 @@ def test_a_run_without_a_record_is_refused():
 
 @pytest.mark.parametrize(("d", "unit"), [(2e-5, 1e-6), (8e-4, 1e-3)])
 def test_profile_shows_springs_down_to_the_indenter(d, unit):
-    left, right = plots.plot_profile(Ball(), d, n_springs=40).axes
+    ball = mdr.Sphere(R=1e-3)  # a shape that ends
+    left, right = plots.plot_profile(ball, d, n_springs=40).axes
     springs = {drawn.get_label(): drawn for drawn in right.collections if drawn.get_label() in ("in contact", "free")}
     tops = np.array([segment[1] for segment in springs["in contact"].get_segments()]) * [unit, 1e-6]
-    assert_allclose(tops[:, 1], tops[:, 0] ** 2 / Ball.R - d, atol=1e-12)
-    assert np.all(np.abs(tops[:, 0]) < Ball().contact_radius(d))
+    assert_allclose(tops[:, 1], ball.profile_1d(np.abs(tops[:, 0])) - d, atol=1e-12)
+    assert np.all(np.abs(tops[:, 0]) < ball.contact_radius(d))
     assert len(springs["in contact"].get_segments()) + len(springs["free"].get_segments()) == 40
     assert left.get_title() != right.get_title()
 
@@ -265,5 +249,4 @@ def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():
 
 
 def test_modes_follow_the_library():
-    State = pytest.importorskip("mdr").State
-    assert [name for name, _ in plots.MODES] == [State(i).name.lower().replace("_", " ") for i in range(4)]
+    assert [name for name, _ in plots.MODES] == [mdr.State(i).name.lower().replace("_", " ") for i in range(4)]
