@@ -240,11 +240,9 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
     found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.pace
     deviation: float | None = None
     holds: bool | None
-    if case.moves_across:  # both closed forms say so too
-        why = "; ".join([across(case), *_left_out(case)])
+    if case.moves_across or case.always_sticks:  # both closed forms say so too
+        why = "; ".join([across(case), *_left_out(case)]) if case.moves_across else _at_the_edge(case)
         return Verdict(eq_15, full, None, None, True, why, found, formula_of(case), within, least)
-    if case.always_sticks:
-        return Verdict(eq_15, full, None, None, True, _at_the_edge(case), found, formula_of(case), within, least)
     if found.v_c is None:
         holds = None if found.kind == "unsettled" else _holds_without_velocity(case, eq_15, full)
     elif not np.isfinite(eq_15):

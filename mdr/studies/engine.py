@@ -55,11 +55,10 @@ class Call:
 
     def study(self, chunk_seconds: float, shard: tuple[int, int]) -> Study:
         """The study; what is missing of this shard in the store is computed before."""
-        n = self.work.layout.n_units
         try:
             if self.store is not None:
                 return self._in_store(self.store, chunk_seconds, shard)
-            cut = _cut_in_memory(n)
+            cut = _cut_in_memory(self.work.layout.n_units)
             self._compute(range(len(cut)), cut, len(cut))
             return self._found()
         except KeyboardInterrupt:
