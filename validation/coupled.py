@@ -75,7 +75,6 @@ def claim(effort: str) -> Claim:
     light = _percent(rows, 0.0, 0.3)
     where, greatest = _where(rows, 1.2), 100 * most.loss
     return Claim(
-        "coupled",
         **told(claim, locals()),
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
         figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),

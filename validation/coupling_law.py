@@ -161,7 +161,6 @@ def claim(effort: str) -> Claim:
     n_within, rms_percent, most_percent = len(within), 100 * rms, 100 * most
     further = _beyond(beyond)
     return Claim(
-        "coupling_law",
         **told(claim, locals()),
         checks=(*_constant_checks(constants[None]), *_trial_checks(within, beyond), *_group_checks(effort == "quick")),
         figures=(_collapse_figure(everything, constants[None]), _trial_figure(tried(training, constants), trials)),

@@ -58,7 +58,6 @@ def claim(effort: str) -> Claim:
     quick = effort == "quick"
     best_soft, best_stiff = _best(3.0), _best(30.0)
     return Claim(
-        "drive",
         **told(claim, locals()),
         checks=(*_stiff_checks(), *_curve_checks(quick), *_energy_checks(), *_side_checks()),
         figures=(_figure(quick),),

@@ -126,7 +126,6 @@ def claim(effort: str) -> Claim:
     before_paraboloid = _before(0.9, "paraboloid")
     off_percent = 100 * max(abs(_over_estimate(k, v) - 1) for k, v in ends.items())
     return Claim(
-        "end_of_stick",
         **told(claim, locals()),
         checks=(*_end_checks(ends, cells), *_table_checks(), *_place_checks(seen), *_tail_checks(quick)),
         figures=(_end_figure(ends, cells), _map_figure(seen)),

@@ -121,7 +121,6 @@ def claim(effort: str) -> Claim:
     n_shares = len(SHARES[effort])
     most_steps, orders_found = LEVELS[-1], span(orders)
     return Claim(
-        "energy",
         **told(claim, locals()),
         checks=(*_balance_checks(balances), *_full_slip_checks(effort)),
         figures=(_figure(balances),),

@@ -114,12 +114,7 @@ def claim(effort: str) -> Claim:
     n = N_SPRINGS[effort]
     checks = (*_mindlin_checks(n), *_run_checks(), *_sum_checks(), *_loop_checks(n), *_surface_checks())
     off_mindlin = max(float(c.got or 0) for c in checks if "one by one" in c.name)
-    return Claim(
-        "fields",
-        **told(claim, locals()),
-        checks=checks,
-        figures=(_traction_figure(), _loop_figure()),
-    )
+    return Claim(**told(claim, locals()), checks=checks, figures=(_traction_figure(), _loop_figure()))
 
 
 # --- checks ---

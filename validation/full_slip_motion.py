@@ -81,7 +81,6 @@ def claim(effort: str) -> Claim:
     checks = [c for punch, refined in motions.items() for c in _motion_checks(_name(punch), refined, steps)]
     most_steps = steps[-1]
     return Claim(
-        "full_slip_motion",
         **told(claim, locals()),
         checks=(*checks, _from_rest(), *_force_checks(effort)),
         figures=(_motion_figure(), _order_figure(motions, steps)),

@@ -56,7 +56,6 @@ def claim(effort: str) -> Claim:
     gone = 1 - rings.stick_radius(0.5, 0.3) / rings.goodman(0.5, 0.3)
     gone_percent = 100 * gone
     return Claim(
-        "judge",
         **told(claim, locals()),
         checks=(*_normal_checks(quick), *_slip_checks(slips, n), *_spence_checks(quick), *_order_checks(quick)),
         figures=(_figure(quick),),

@@ -121,7 +121,6 @@ def claim(effort: str) -> Claim:
     limit_10, limit_100 = laws.amplitude_limit(10.0), laws.amplitude_limit(100.0)
     least_percent = percent(1 + least.deviation, 3)
     return Claim(
-        "lost_contact",
         **told(claim, locals()),
         checks=(*_rigid_checks(rigid), *_limit_checks(), *_onset_checks(), *_slow_checks(), *_body_checks(body)),
         figures=(_rigid_figure(rigid), _onset_figure(effort), _slow_figure(body, effort)),

@@ -70,7 +70,6 @@ def claim(effort: str) -> Claim:
     off_force = _greatest(checks, "over the disc")
     n_shapes, off_surface = len(SHAPES) + len(CATALOGUE), _greatest(checks, "half-space")
     return Claim(
-        "mapping",
         **told(claim, locals()),
         checks=checks,
         figures=(_pressure_figure(), _catalogue_figure(sunk), _error_figure(orders, counts)),

@@ -76,7 +76,6 @@ def claim(effort: str) -> Claim:
     amplitudes, reaches = span((half.at_rest for half in halves), 2), span(furthest, 2)
     greatest_T = max(half.T for half in halves)
     return Claim(
-        "maps",
         **told(claim, locals()),
         checks=(*_checks_of_v_c(of_v_c, points), *checks, *_checks_of_half(halves)),
         figures=(_figure_of_v_c(of_v_c, points), _figure_of_cof(rigid, body), _figure_of_half(halves)),

@@ -145,12 +145,7 @@ def claim(effort: str) -> Claim:
     tested_times = ranged(times).removeprefix("= ")
     drawn_times = listed(DRAWN)
     ends = span(left, 2)
-    return Claim(
-        "normal_contact",
-        **told(claim, locals()),
-        checks=checks,
-        figures=(_press_figure(), _creep_figure()),
-    )
+    return Claim(**told(claim, locals()), checks=checks, figures=(_press_figure(), _creep_figure()))
 
 
 # --- checks ---

@@ -89,7 +89,6 @@ def claim(effort: str) -> Claim:
     orders = {shape: order(shape, law, corrected=True) for shape in ("paraboloid", "r^4")}
     raw, scaled, left = spreads(law)
     return Claim(
-        "one_curve",
         **told(claim, locals()),
         checks=(*_exact_checks(law, 6 if quick else 25), *_first_order_checks(), *_order_checks(law, orders)),
         figures=(_figure(law),),

@@ -165,7 +165,6 @@ def claim(effort: str) -> Claim:
     of_relaxing = 1 - relaxing.ratio[0]
     of_deep = 1 - deep.ratio[0]
     return Claim(
-        "random_vibration",
         **told(claim, locals()),
         checks=(
             *_law_checks(found),

@@ -201,11 +201,12 @@ class Claim:
 def told(claim: Callable[..., Any], numbers: Mapping[str, Any]) -> dict[str, str]:
     """What the docstring of a function that gives a claim, or a part of one, says of it, by the names of the fields.
 
-    The first paragraph is the title; others begin with the name of a field, as "Range: ...", or with "How: ", which
-    tells the reader of the code what is done. Names in braces are numbers: local to the function, or of its module.
+    Its name is that of the module. The first paragraph is the title; others begin with the name of a field, as "Range:
+    ...", or with "How: ", which tells the reader of the code what is done. Names in braces are numbers: local to the
+    function, or of its module.
     """
     title, *paragraphs = re.sub(r"(?<!\n)\n(?!\n)", " ", inspect.getdoc(claim) or "").split("\n\n")
-    texts = {"title": title, "quote": ""}
+    texts = {"name": claim.__module__.rpartition(".")[2], "title": title, "quote": ""}
     for paragraph in paragraphs:
         field, _, text = paragraph.partition(": ")
         texts[field.lower()] = text.format_map({**claim.__globals__, **numbers})

@@ -134,10 +134,7 @@ def claim(effort: str) -> Claim:
     orders_found = span(orders)
     percent = 100 * worst.true / worst.stated
     return Claim(
-        "resolution",
-        **told(claim, locals()),
-        checks=(*_order_checks(studies), *_bound_checks(found)),
-        figures=(_figure(studies),),
+        **told(claim, locals()), checks=(*_order_checks(studies), *_bound_checks(found)), figures=(_figure(studies),)
     )
 
 

@@ -123,7 +123,6 @@ def claim(effort: str) -> Claim:
     still = f" Still growing at the end of the longest run: {', '.join(growing)}." if growing else ""
     faint_ones = f" Too faint to be told from the error of a run: {unseen}." if unseen else ""
     return Claim(
-        "resonances",
         **told(claim, locals()),
         checks=(*checks, *_pole_checks(driven), *_order_checks()),
         figures=(_plateau_figure(driven, speeds), _window_figure(effort, damped)),

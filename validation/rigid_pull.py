@@ -88,7 +88,6 @@ def claim(effort: str) -> Claim:
     limit_1, limit_10 = laws.amplitude_limit(1.0), laws.amplitude_limit(10.0)
     limit_30, late = laws.amplitude_limit(30.0), laws.late_return(1.0, 30.0)
     return Claim(
-        "rigid_pull",
         **told(claim, locals()),
         checks=(*_velocity_checks(found, tapped), *_march_checks(marched), *_end_checks()),
         figures=(_curve_figure(), _end_figure()),

@@ -68,7 +68,6 @@ def claim(effort: str) -> Claim:
     stiffest, fastest, least_cof = STIFF[-1], FAST[-1], slow[least]
     rigid_cof = laws.rigid_across(SLOW)
     return Claim(
-        "shaken_across",
         **told(claim, locals()),
         checks=(*_fast_checks(quick), *_stiffness_checks(quick, slow), *_side_checks(quick, sides)),
         figures=(_figure(quick),),

@@ -60,7 +60,6 @@ def claim(effort: str) -> Claim:
     quick = effort == "quick"
     phases = "two" if quick else "four"
     return Claim(
-        "shaken_curves",
         **told(claim, locals()),
         checks=(*_small_checks(quick), *_great_checks(), *_band_checks(quick), _order_check(), *_half_space_checks()),
         figures=(_figure(quick),),

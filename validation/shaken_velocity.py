@@ -54,7 +54,6 @@ def claim(effort: str) -> Claim:
     quick = effort == "quick"
     phases = np.linspace(0, 2 * math.pi, 4 if quick else 9)[:-1]
     return Claim(
-        "shaken_velocity",
         **told(claim, locals()),
         checks=(*_rigid_checks(phases), *_body_checks(phases[1:3]), *_alone_checks(quick), *_in_phase_checks()),
         figures=(_figure(quick),),

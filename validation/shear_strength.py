@@ -122,7 +122,6 @@ def claim(effort: str) -> Claim:
         *_logarithm_checks(of_ball, 1 if quick else None),
     )  # fmt: skip
     return Claim(
-        "shear_strength",
         **told(claim, locals()),
         checks=checks,
         figures=(_tail_figure(quick), _apart_figure(apart)),

@@ -121,7 +121,6 @@ def claim(effort: str) -> Claim:
     damping = 100 * DAMPING
     beside = "beside" if effort == "quick" else "through"
     return Claim(
-        "spring_pull",
         **told(claim, locals()),
         checks=(*_sweep_checks(points), *_undamped_checks(effort), *_pole_checks(plateaus, swings)),
         figures=(_sweep_figure(points, materials), _pole_figure(plateaus)),

@@ -111,7 +111,6 @@ def claim(effort: str) -> Claim:
     n_contacts, shapes = len(approaches), ", ".join(dict.fromkeys(c[0] for c in chosen))
     most_T, power = max(c[2] for c in chosen), round(float(np.log10(v[-1])))
     return Claim(
-        "static_cof",
         **told(claim, locals()),
         checks=(*_static_checks(), *(check for a in approaches for check in _approach_checks(a))),
         figures=(_figure(approaches),),

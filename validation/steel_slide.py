@@ -65,10 +65,7 @@ def claim(effort: str) -> Claim:
     off_back = max(np.abs(one[2:]).max() for one in back.values())
     high_rough, stiffness = back[ROUGH][0], 1e-6 * measured.FOLDS * measured.without[1] / deflection[1]
     return Claim(
-        "steel_slide",
-        **told(claim, locals()),
-        checks=(*_met_checks(), *_constant_checks(), *_stiff_checks()),
-        figures=(_figure(),),
+        **told(claim, locals()), checks=(*_met_checks(), *_constant_checks(), *_stiff_checks()), figures=(_figure(),)
     )
 
 

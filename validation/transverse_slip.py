@@ -102,12 +102,7 @@ def claim(effort: str) -> Claim:
     below_v_c = span([one.v for one in some])
     most_percent = 100 * max(below)
     by_itself = number(itself, 1)
-    return Claim(
-        "transverse_slip",
-        **told(claim, locals()),
-        checks=_checks(found),
-        figures=(_figure(found),),
-    )
+    return Claim(**told(claim, locals()), checks=_checks(found), figures=(_figure(found),))
 
 
 def _checks(found: list[Losses]) -> Checks:

@@ -67,10 +67,7 @@ def claim(effort: str) -> Claim:
     step, grid = max(row.step for row in rows), max(row.grid for row in rows)
     worst_of_all = number(worst, 1)
     return Claim(
-        "uncoupled",
-        **told(claim, locals()),
-        checks=(*_table_checks(rows), *_again_checks(again, rows)),
-        figures=(_figure(rows),),
+        **told(claim, locals()), checks=(*_table_checks(rows), *_again_checks(again, rows)), figures=(_figure(rows),)
     )
 
 

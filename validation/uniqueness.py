@@ -276,7 +276,6 @@ def claim(effort: str) -> Claim:
     apart = max(np.ptp([s.mean for s in e.settled] or [0.0]) for e in found)
     closed = np.abs(waited[0][0] - waited[0][1]).max()
     return Claim(
-        "uniqueness",
         **told(claim, locals()),
         checks=(
             *_distance_checks(found),

@@ -140,7 +140,6 @@ def claim(effort: str) -> Claim:
     off_taken = max(abs(found - said) for _, found, said in coupled)
     off_side = _to_the_side(cells)
     return Claim(
-        "vector_springs",
         **told(claim, locals()),
         checks=(*of_annuli, *of_cells, *_surface_checks(beyond)),
         figures=(_figure(off), _law_figure(off, coupled), _surface_figure()),

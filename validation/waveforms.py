@@ -110,7 +110,6 @@ def claim(effort: str) -> Claim:
     of_n_harmonics = (*_steepest_checks(quick), *_left_checks((MOST,) if quick else (3, MOST)))
     gain_6, taken = laws.steepest_waveform(6)[0] / 6, best[most][0]
     return Claim(
-        "waveforms",
         **told(claim, locals()),
         checks=(*of_a_punch, *of_every_contact, *of_n_harmonics, *_best_checks(best)),
         figures=(_figure(best[most], most),),

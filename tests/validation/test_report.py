@@ -191,7 +191,8 @@ def an_example():
 
 def test_the_docstring_of_a_claim_is_its_text():
     assert an_example() == {
-        "title": "v_c of a rigid pull", "quote": "", "range": "7 runs, from 3 on.", "sentence": "x^{2} holds.",
+        "name": "test_report", "title": "v_c of a rigid pull", "quote": "", "range": "7 runs, from 3 on.",
+        "sentence": "x^{2} holds.",
     }  # fmt: skip
 
 

@@ -34,8 +34,4 @@ def claim(effort: str) -> Claim:
     with ω_0 = nω, n ≥ 2), and the limit of small amplitude for all other shapes and drives.
     """
     parts = tuple(one.part(effort) for one in (shapes, catalogue, indentation, rheology, motions, finite_amplitude))
-    return Claim(
-        "generalisation",
-        **told(claim, locals()),
-        parts=parts,
-    )
+    return Claim(**told(claim, locals()), parts=parts)

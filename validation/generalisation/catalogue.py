@@ -88,7 +88,6 @@ def part(effort: str) -> Part:
     rigid = "" if quick else "Rigid pull: Eq. (1) for every shape. "
     those = "the three shapes computed" if quick else "all curved shapes"
     return Part(
-        "catalogue",
         **told(part, locals()),
         checks=(*_measured_checks(points), *_order_checks(quick)),
         figures=(_figure(quick),),

@@ -203,7 +203,6 @@ def part(effort: str) -> Part:
     turns = "; ".join(f"{value:.2g} (ω_0 = {r:g} ω)" for r, value in crossing.items())
     beside = 100 * deviation("cone", 0.03, 0.0, 0.8)
     return Part(
-        "finite_amplitude",
         **told(part, locals()),
         checks=(*_measured_checks(points), *_power_checks(effort)),
         figures=(_map_figure(known, points), _table_figure(points, effort)),

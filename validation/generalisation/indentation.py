@@ -105,7 +105,6 @@ def part(effort: str) -> Part:
     S_stiff, S_heavy = laws.depth_sensitivity(stiff), laws.depth_sensitivity(heavy)
     rigid_names = listed(rigid_shapes)
     return Part(
-        "indentation",
         **told(part, locals()),
         checks=(*_measured_checks(points), *_slope_checks(effort), *_minimum_checks()),
         figures=(_depth_figure(points, effort), _slope_figure()),

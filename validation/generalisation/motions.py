@@ -98,7 +98,6 @@ def part(effort: str) -> Part:
     n_points = len(points)
     contacts = "; ".join(p.where for p in points) if quick else _ALL
     return Part(
-        "motions",
         **told(part, locals()),
         checks=(*_measured_checks(points), *_equivalence_checks(quick), *_amplitude_checks()),
         figures=(_figure_of_loads(quick), *(() if quick else (_figure_of_series(),))),

@@ -89,7 +89,6 @@ def part(effort: str) -> Part:
     names = "; ".join(chosen)
     shape_names = listed(shapes)
     return Part(
-        "rheology",
         **told(part, locals()),
         checks=(*checks, *(() if quick else _amplitude_checks())),
         figures=(_figure_of_velocities(quick), *(() if quick else (_figure_of_curves(),))),

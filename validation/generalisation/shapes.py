@@ -147,7 +147,6 @@ def part(effort: str) -> Part:
     far_percent = 100 * far.deviation
     small_percent, miss = 100 * small.deviation, max(abs(p.miss) for p in points)
     return Part(
-        "shapes",
         **told(part, locals()),
         checks=(*_measured_checks(points), *_power_checks(), *_map_checks()),
         figures=(_glance(points, effort), _powers(effort), _map_figure(*fields)),

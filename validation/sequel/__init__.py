@@ -28,8 +28,4 @@ def claim(effort: str) -> Claim:
     vibration costs least power if elastic; from ωτ of 0.1 on one along does.
     """
     parts = tuple(one.part(effort) for one in (at_rest, full_slip, waveform, energy))
-    return Claim(
-        "sequel",
-        **told(claim, locals()),
-        parts=parts,
-    )
+    return Claim(**told(claim, locals()), parts=parts)

@@ -42,7 +42,6 @@ def part(effort: str) -> Part:
     """
     quick = effort == "quick"
     return Part(
-        "at-rest",
         **told(part, locals()),
         checks=(*_normal_checks(quick), *_tapping_checks(), *_along_checks(quick), *_across_checks()),
     )

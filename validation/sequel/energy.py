@@ -62,7 +62,6 @@ def part(effort: str) -> Part:
     rubber = {way: at["flat punch", 1.0, way] for way in WAYS}
     names, times = " and ".join(shapes), ", ".join(f"{T:g}" for T in TIMES[1:])
     return Part(
-        "energy",
         **told(part, locals()),
         checks=(*_elastic_checks(found), *_body_checks(), *_order_checks(at)),
         figures=(_figure(found),),

@@ -24,11 +24,7 @@ def part(effort: str) -> Part:
 
     Sentence: (12) holds: full slip leaves μ_0 for a normal and a longitudinal oscillation; across it never does.
     """
-    return Part(
-        "full-slip",
-        **told(part, locals()),
-        checks=tuple(_checks(effort == "quick")),
-    )
+    return Part(**told(part, locals()), checks=tuple(_checks(effort == "quick")))
 
 
 def _checks(quick: bool) -> Checks:

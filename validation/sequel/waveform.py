@@ -37,11 +37,7 @@ def part(effort: str) -> Part:
 
     Sentence: (20), (30), (33) to (36) and (39) hold; the fit (37) is off by 0.014 at most.
     """
-    return Part(
-        "waveform",
-        **told(part, locals()),
-        checks=(*_stated_checks(), *_fit_checks(), *_impulse_checks()),
-    )
+    return Part(**told(part, locals()), checks=(*_stated_checks(), *_fit_checks(), *_impulse_checks()))
 
 
 def _stated_checks() -> Checks:
