@@ -18,7 +18,6 @@ import pytest
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.tools.fields import example_of, facts_of, has_example
-from validation.full_slip import full_slip
 
 NAN, INF = math.nan, math.inf
 BALL, RUBBER, SLED = mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.5, 1e-3), mdr.SpringPull(2e4, 0.1, 4.0)
@@ -249,7 +248,6 @@ CALLS = [
         *((one, "finite") for one in (NAN, INF)), *((one, "between 0 and 1, got") for one in (1, 0.0, -0.01)),
         (5, "0.01 for 1 %"), *((one, "must be a real number") for one in ("1%", None, True))]}),
     (mdr.SpringArray.of, {"case": CASE}, {}),
-    (full_slip, {"case": CASE}, {}),
     (mdr.tolerance, {"case": CASE, "v_0": 1e-4}, {"v_0": ONE, "by": [(10, "between 0 and 1, got 10.0 (0.1, or 10%)")]}),
     (mdr.partial_slip, {**PRESSED, "mu_0": 0.5, "u_z0": 1e-6, "u_x": 1e-7}, {
         "u_x": [*ARRAY, (-1e-7, "must not be negative")], "u_z0": ABOVE_ZERO}),

@@ -76,18 +76,18 @@ def balance(shape: str, alpha: float, T: float, pull: str, shares: tuple[float, 
 
 def in_full_slip(case: mdr.SlidingContact, v_0: float) -> dict[str, float]:
     """The energies [J] of one period of full slip, from the normal force alone."""
-    motion = full_slip(case)
+    F_N, u_z_dot = full_slip(case)
     period, mu_0, kappa = case.oscillation.period, case.mu_0, case.material.mindlin_ratio
     F_n = normal_force_harmonics(case)
     omega_n = np.arange(F_n.size) * case.oscillation.omega
     y_n = -mu_0 * F_n * np.asarray(case.pull.receptance(omega_n))
-    y_dot = np.fft.irfft(1j * omega_n * y_n, motion.t.size) * motion.t.size
+    y_dot = np.fft.irfft(1j * omega_n * y_n, F_N.size) * F_N.size
     c_x = case.pull.c_x if isinstance(case.pull, mdr.SpringPull) else 0.0
-    slip = v_0 + y_dot - mu_0 * kappa * motion.u_z_dot
+    slip = v_0 + y_dot - mu_0 * kappa * u_z_dot
     return {
         "pull_work": mu_0 * float(F_n[0].real) * v_0 * period,
-        "normal_work": float(np.mean(motion.F_N * motion.u_z_dot)) * period,
-        "friction_loss": mu_0 * float(np.mean(motion.F_N * slip)) * period,
+        "normal_work": float(np.mean(F_N * u_z_dot)) * period,
+        "friction_loss": mu_0 * float(np.mean(F_N * slip)) * period,
         "damper_loss": c_x * float(np.mean(y_dot**2)) * period,
     }
 

@@ -124,7 +124,7 @@ def approach(shape: str, alpha: float, T: float, v: Array) -> Approach:
     v_c, static = mdr.critical_velocity(case), mdr.static_cof(case)
     runs = [mdr.slide(case, x * v_c) for x in v]
     rise = np.array([run.cof - static for run in runs]) / case.mu_0
-    mean = float(np.mean(full_slip(case).F_N))
+    mean = float(np.mean(full_slip(case)[0]))
     miss = alpha * np.hypot(1, T) * SAMPLED * case.k_zc * case.oscillation.u_z0 / mean
     error = np.array([run.cof_error / case.mu_0 if run.settled else np.inf for run in runs]) + miss
     law = _law(case, mean)
