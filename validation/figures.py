@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any
 
-from mdr.plots import COLOURS, style
+from mdr.plots import COLOURS as COLOURS
+from mdr.plots import style
 from validation.cases import LOOKS, shape_label
 from validation.report import Figure
 
@@ -51,12 +52,6 @@ def panel(
         ax.set(**scales, **{key: text for key, text in words.items() if text}, **limits)
         if legend:
             ax.legend(**(legend if isinstance(legend, Mapping) else {"loc": legend}))
-
-
-def lines(ax: Any, x: Any, curves: Mapping[str, Any], line: str = "-", **look: Any) -> None:
-    """A line for each label, in the colours of the library."""
-    for (label, y), colour in zip(curves.items(), COLOURS, strict=False):
-        ax.plot(x, y, line, color=colour, label=label, **look)
 
 
 def circles(ax: Any, x: Any, y: Any, colour: str, **look: Any) -> None:
