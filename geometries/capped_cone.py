@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 
 import mdr
 from mdr.closed_forms.paper import deficit
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, du_z, v_0, theta = 2 * np.pi * 75, 1.0, 5e-9, 1e-6, np.deg2rad(90 - 70.3)
 silicone = mdr.KelvinVoigt.from_loss_tangent(E=5e6, nu=0.5, tan_delta=0.05, omega=omega)
@@ -58,8 +59,6 @@ def figure():
     """The tips, and what is missing of the friction over the depth of the scratch."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     r = np.linspace(-400e-9, 400e-9, 401)
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2), width_ratios=(2, 3))
@@ -87,6 +86,4 @@ if __name__ == "__main__":
             f"cap of {1e9 * R:4.0f} nm: 100 nm deep {at_100[0]:.3f} % are missing ({at_100[1]:.3f} if small),", end=" "
         )
         print(f"1 % at {1e9 * d:.0f} nm")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -14,6 +14,7 @@ a damper c_x makes it; and the greatest to a rubber in between: where the line f
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, v_0 = 2 * np.pi * 50, 0.7, 1.2e-3
 button = mdr.CappedParaboloid(R1=40e-3, R2=5e-3, b=0.6e-3)
@@ -40,8 +41,6 @@ cof = np.array([mdr.slide(slider(tau_1), v_0, n_springs=64, steps_per_period=256
 def figure():
     """Semicircle of the dynamic stiffness K_z (Cole-Cole plot); v_c over relaxation time; static COF and COF at v_0."""
     import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
 
     with style():
         fig, axes = plt.subplot_mosaic([["circle", "v_c"], ["circle", "cof"]], figsize=(8.6, 5.8))
@@ -76,6 +75,4 @@ if __name__ == "__main__":
     for tau_1, v, rest, mu in zip(some, full, at_rest, cof, strict=True):
         row = omega * tau_1, 1e3 * mdr.critical_velocity(slider(tau_1)), 1e3 * v, rest, mu
         print("{:11.3f} {:22.3f} {:22.3f} {:13.4f} {:13.4f}".format(*row))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -14,6 +14,7 @@ would touch, which the method leaves out.
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, T, u_z0 = 2 * np.pi * 60, 0.9, 0.3, 0.4e-3
 cup = mdr.ConcavePunch(a=15e-3, R=0.9)
@@ -41,8 +42,6 @@ of_punch = mdr.cof_curve(foot(limit, mdr.FlatPunch(cup.a), punch_depth), shares 
 def figure():
     """Pressure under the foot between its extremes, and its friction up to the limit."""
     import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
 
     r = np.linspace(0, 0.999 * cup.a, 300)
     depths = {"deepest": u_z0 + limit, "mean": u_z0, "least": h}
@@ -73,6 +72,4 @@ if __name__ == "__main__":
         print("{:14.1f} {:13.4f} {:12.3f}".format(*row))
     print(f"Eq. (15) is off by {np.abs(full / v_c[[0, -1]] - 1).max():.0e} at most;", end=" ")
     print(f"a flat punch under the same force by {np.abs(of_punch.cof - curves[1.0].cof).max():.0e} in the COF")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -14,6 +14,7 @@ just as the springs need, the others weigh most.
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, plot_spring_map, save, style
 
 omega, gel, mu_0, du_z = 2 * np.pi * 60, mdr.Elastic(E=1e6, nu=0.5), 0.6, 4e-6
 cone = mdr.Cone(theta=0.05)
@@ -40,8 +41,6 @@ run = mdr.slide(contact(shallow), 0.4 * verdicts[shallow].eq_15, record=2)
 def figure():
     """v_c over depth, the error of Eq. (15), and the springs of the shallow contact below v_c."""
     import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, plot_spring_map, style
 
     at, measured = 1e6 * np.array(list(verdicts)), np.array([v.measured for v in verdicts.values()])
     with style():
@@ -70,6 +69,4 @@ if __name__ == "__main__":
     print(f"cone, Eq. (15): {1e3 * eq_15.min():.3f} to {1e3 * eq_15.max():.3f} mm/s, least {1e6 * balanced:.1f} µm in")
     for depth, verdict in verdicts.items():
         print(f"{1e6 * depth:.0f} µm deep: {verdict}")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -11,6 +11,7 @@ Which of them keeps closest to Eq. (15)?
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, a, d_0 = 2 * np.pi * 50, 0.6, 4e-3, 100e-6
 rubber = mdr.KelvinVoigt(E=6e6, nu=0.5, tau=2e-4)
@@ -49,8 +50,6 @@ def figure():
     """Pressures at the mean depth, the error of Eq. (15), and the static COF."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     r = np.linspace(0, 0.999 * a, 300)
     with style():
         fig, axes = plt.subplot_mosaic([["pressure", "off"], ["pressure", "static"]], figsize=(8.6, 5.8))
@@ -81,6 +80,4 @@ if __name__ == "__main__":
     for du_z, v, off, rest in zip(amplitudes, eq_15, 100 * (full / eq_15 - 1), at_rest, strict=True):
         row = "{:14.0f} {:17.3f} {:+17.3f} {:+7.3f} {:+7.3f} {:16.4f} {:7.4f} {:7.4f}"
         print(row.format(1e6 * du_z, 1e3 * v[0], *off, *rest))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -15,6 +15,7 @@ from gallery import d as reference
 from gallery import du_z as of_gallery
 
 import mdr
+from mdr.plots import save, style
 
 depths, du_z = np.array([10e-6, 20e-6, reference, 50e-6]), 4e-6
 rigid = eq_1 * du_z / of_gallery  # Eq. (1) [m/s], in proportion to the amplitude
@@ -44,8 +45,6 @@ def figure():
     """Two tables in colour: v_c over Eq. (1), and the error of Eq. (15)."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import style
-
     with style():
         fig, axes = plt.subplots(1, 2, sharey=True, figsize=(10, 7))
         off = 100 * (full / eq_15 - 1)
@@ -74,6 +73,4 @@ if __name__ == "__main__":
     for name, one, other in zip(ordered, full / rigid, 100 * (full / eq_15 - 1), strict=True):
         print(f"{name:38s} " + "".join(f"{value:11.4f}" for value in one))
         print(39 * " " + "".join(f"{value + 0:+11.3f}" for value in other))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -12,6 +12,7 @@ Limit: the half-space is quasi-static while the contact is small against the she
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 finger = mdr.Ellipsoid(R=6e-3, k=1 / 8e-3)
 parabola = mdr.Paraboloid(R=1 / (finger.k**2 * finger.R))
@@ -42,8 +43,6 @@ def figure():
     """COF over the speed of a light and a firm touch, and v_c over the load."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2))
         for (i, values), name, colour in zip(cof.items(), ("light", "firm"), COLOURS, strict=False):
@@ -71,6 +70,4 @@ if __name__ == "__main__":
         at = (f"{1e3 * v:g} mm/s {c:.3f}" for v, c in zip(speeds, values, strict=True))
         print(f"{loads[i]:.2g} N at", ", ".join(at))
     print(f"the shear wave is {wave_over_radius:.1f} contact radii long at least")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

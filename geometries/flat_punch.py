@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 vibration = mdr.NormalOscillation(u_z0=50e-6, du_z=15e-6, omega=2 * np.pi * 100)
 pull = mdr.SpringPull(k_x=2e3, m=0.2)  # a foot's share of the machine
@@ -38,8 +39,6 @@ at_rest_beyond = [mdr.static_cof(foot(T, du_z)) for T, du_z in zip(loss_tangents
 def figure():
     """COF over pulling velocity, and the static COF over amplitude, for each loss tangent."""
     import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
 
     with style():
         fig, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(9, 4))
@@ -66,6 +65,4 @@ if __name__ == "__main__":
     print("loss tangent   v_c [mm/s]    static COF   contact lost above [µm]")
     for row in zip(loss_tangents, np.multiply(v_c, 1e3), static, np.multiply(lost_above, 1e6), strict=True):
         print("{:12.1f} {:12.3f} {:13.3f} {:25.1f}".format(*row))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -9,6 +9,7 @@ a ball to the curve. Both are set beside the tip itself, a hyperboloid, which th
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 gel, stylus = mdr.Elastic(E=30e3, nu=0.5), mdr.Hyperboloid(h=40e-6, c=150e-6)
 omega, mu_0 = 2 * np.pi * 120, 0.8
@@ -54,8 +55,6 @@ def figure():
     """The force curve, and the images g(x) that each method reads from it."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     looks = (("0.2", "-", 4.5), (COLOURS[1], "-", 1.8), (COLOURS[0], "--", 1.8))
     fine = np.linspace(0, 56e-6, 300)
     with style():
@@ -80,6 +79,4 @@ if __name__ == "__main__":
         print(f"{name:15s} {force:10.5f} {1e3 * v_c:12.4f} {rest:13.4f}")
     off = ", ".join(f"{100 * value:.2f} %" for value in scatter)
     print(f"r.m.s. error of four other measurements in force, v_c, COF: {off}")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 a, d = 1e-3, 40e-6  # all touch over this radius at this depth
 omega, mu_0, du_z = 2 * np.pi * 100, 0.5, 10e-6
@@ -92,8 +93,6 @@ def figure():
     import matplotlib as mpl
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     columns = 6
     with style():
         fig = plt.figure(figsize=(8.6, 8.6))
@@ -125,8 +124,6 @@ def figure():
 
 def _form(ax, shape):
     """Shape and image at the depth d, without axes."""
-    from mdr.plots import COLOURS
-
     x = np.linspace(0, min(1.35 * a, shape.max_radius), 300)
     ends = x[-1] < 1.35 * a
     r = np.r_[x, x[-1]] if ends else x
@@ -147,6 +144,4 @@ if __name__ == "__main__":
         half = np.interp(0.5, v_hat, curve)
         row = share[name], curve[0], half, 100 * (full()[name] / eq_15 - 1)
         print(f"{name:22s} {row[0]:15.4f} {row[1]:17.4f} {row[2]:19.4f} {row[3]:+22.3f}")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

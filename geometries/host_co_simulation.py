@@ -22,6 +22,7 @@ from fmpy.fmi2 import FMU2Slave
 
 import mdr
 from mdr.element.fmu import fmu, sources  # needs a C compiler
+from mdr.plots import save, style
 
 m, k, mu_0, depth, kick, end = 0.01, 400.0, 0.5, 40e-6, 0.04, 0.1  # kg, N/m, -, m, m/s, s
 ball, rubber = mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5)
@@ -76,8 +77,6 @@ def figure():
     """Left: the motion. Right: its error over the calls of the unit."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import style
-
     with style():
         fig, (moved, off) = plt.subplots(1, 2, figsize=(11, 4.4))
         moved.plot(1e3 * true_t, 1e6 * true_x, "k", label="short steps")
@@ -97,6 +96,4 @@ if __name__ == "__main__":
     for name, values, runs, errors in (("omega h", steps, fixed, error), ("share", shares, rolled, of_rolled)):
         for value, (*_, calls), off in zip(values, runs, errors, strict=True):
             print(f"{name} = {value:<7.3g} {calls:6} calls, error {100 * off:.3g} %")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -21,6 +21,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 mu_0, m, load = 0.5, 1e-3, 0.03  # -, kg, N
 element = mdr.ContactElement(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), mu_0, u_z_max=60e-6, n_springs=64)
@@ -127,8 +128,6 @@ def figure():
     """The way of the slider, the error over the step, and Newton's method in one step."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, (ways, order, newton) = plt.subplots(1, 3, figsize=(13, 4.4))
         ways.plot(1e3 * fine.t, 1e6 * fine.x[:, 0], color="black", label="fixed steps")
@@ -161,6 +160,4 @@ if __name__ == "__main__":
     for rtol, run in adaptive.items():
         print(f"RK45, rtol = {rtol:g}: {run.calls} calls for {run.t.size - 1} steps,", end=" ")
         print(f"way off by {wrong[rtol][0]:.3f}, loss by {wrong[rtol][1]:+.2f}")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -12,6 +12,7 @@ import warnings
 import numpy as np
 
 import mdr
+from mdr.plots import save, style
 
 omega, mu_0, du_z, load = 2 * np.pi * 200, 0.5, 40e-9, 2e-6
 elastomer = mdr.KelvinVoigt.from_loss_tangent(E=10e6, nu=0.5, tan_delta=0.1, omega=omega)
@@ -48,8 +49,6 @@ def figure():
     """COF over velocity at four stages of wear, and static COF over the tip radius."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import style
-
     with style():
         fig, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(9.5, 4.2))
         for R, curve in curves.items():
@@ -77,6 +76,4 @@ if __name__ == "__main__":
         deep = 1e9 * case.oscillation.u_z0
         print(f"R = {1e9 * R:6.0f} nm: {deep:.0f} nm deep, static COF {rest:.4f}, {half:.4f} at v_c/2")
     print(f"5 % less static COF than the cone's {of_cone:.4f}: R = {1e9 * told:.0f} nm")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

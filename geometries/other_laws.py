@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 FOLDER = Path(__file__).parents[1] / "docs" / "paths"
 SUBSTEPS, HELD = 50, "ball_held_load"
@@ -103,8 +104,6 @@ def figure():
     """Worst error of each law on each path, and the path of small cycles under a held load."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, (table, loop) = plt.subplots(1, 2, figsize=(13, 7), width_ratios=(1.15, 1))
         values = np.array(list(errors.values()))
@@ -131,6 +130,4 @@ if __name__ == "__main__":
     for path, worst in errors.items():
         print(f"{path:20s}", *(f"{one:11.1e}" for one in worst))
     print("lost per cycle [%]:", ", ".join(f"{law} {100 * one:z.2f}" for law, one in lost.items()))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

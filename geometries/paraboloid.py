@@ -12,6 +12,7 @@ Limit: the half-space is quasi-static while the tip is small against the shear w
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, plot_spring_map, plot_traces, save, style
 
 rubber = mdr.KelvinVoigt.from_loss_tangent(E=10e6, nu=0.5, tan_delta=0.1, omega=2 * np.pi * 1e3)
 body = mdr.SpringPull(k_x=2e3, m=1e-3, c_x=0.3)
@@ -42,8 +43,6 @@ def figure():
     """v_c and COF over frequency, and the springs of one run."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, plot_spring_map, style
-
     with style():
         fig, axes = plt.subplot_mosaic([["v_c", "map"], ["cof", "map"]], figsize=(10, 6))
         axes["v_c"].loglog(sweep, 1e3 * eq_15, label="mass and spring, Eq. (15)")
@@ -71,7 +70,5 @@ if __name__ == "__main__":
     for f, run in zip(shaken, runs, strict=True):
         print(f"{f:8.0f} Hz: {run.cof:.4f} (error {run.cof_error:.0e})")
     print(f"at 20 kHz the shear wave is {wave_over_radius:.0f} contact radii long")
-    from mdr.plots import plot_traces, save
-
     print("figure:", save(figure(), __file__))
     print("figure:", save(plot_traces(shown), __file__, "_traces"))

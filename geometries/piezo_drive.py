@@ -26,6 +26,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 mu_0, pair = 0.2, mdr.ElasticPair(E_1=380e9, nu_1=0.22, E_2=210e9, nu_2=0.3)  # alumina on steel
 foot, load = mdr.Paraboloid(R=3e-3), 3.0  # m, N
@@ -105,8 +106,6 @@ def figure():
     """Thrust of sawtooth and ellipse over the velocity, and the efficiency of both."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     rows = (("S", strokes, sawtooths, "s--", "sawtooth"), (r"\Delta u_z", heights, ellipses, "o-", "ellipse"))
     with style():
         fig, axes = plt.subplot_mosaic([["sawtooth", "efficiency"], ["ellipse", "efficiency"]], figsize=(8.6, 5.8))
@@ -151,6 +150,4 @@ if __name__ == "__main__":
     for name, thrust in zip(["", *(f"; slider of {1e3 * m:g} g " for m in masses)], of_mass, strict=True):
         print(f"{name}{mu_0 * load * thrust:.3f} N", end="")
     print()
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -13,6 +13,7 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.paper import deficit
+from mdr.plots import COLOURS, save, style
 
 rubber, a, u_z0 = mdr.Elastic(E=5e6, nu=0.5), 1e-3, 40e-6
 
@@ -50,8 +51,6 @@ def figure():
     """COF curves of all tips at a large amplitude; the same scaled, at a large and a small one."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     fine = np.linspace(0, 1, 60)
     names = {n: "flat punch" if np.isinf(n) else f"$n = {n}$" for n in exponents}
     large, small = amplitudes
@@ -79,6 +78,4 @@ if __name__ == "__main__":
         lowered = 1 - curves[n, amplitudes[0]].cof[0] / 0.5
         far = ", ".join(f"{departure[n, alpha]:.1e}" for alpha in amplitudes)
         print(f"n = {n:3g}: {far}; static COF lowered by {100 * lowered:.1f} %")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -10,6 +10,7 @@ near a corner.
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 R, reach, mu_0, omega = 20e-3, 1.4e-3, 0.5, 2 * np.pi * 200
 rubber, body = mdr.Elastic(E=4e6, nu=0.5), mdr.SpringPull(k_x=4e3, m=8e-3, c_x=3.0)
@@ -55,8 +56,6 @@ def figure():
     """The coarsest tip with its image, its pressure, and how the errors fall with the number of facets."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     x, r = np.linspace(0, reach, 281), np.linspace(0, 1.1e-3, 221)[1:]
     with style():
         fig, axes = plt.subplot_mosaic([["tip", "errors"], ["pressure", "errors"]], figsize=(8.6, 5.8))
@@ -89,6 +88,4 @@ if __name__ == "__main__":
     print("facets   off the ball [%]: force, mu/mu_0 at worst, v_c of the body")
     for n, off in errors.items():
         print("{:6d} {:24.4f} {:10.4f} {:10.4f}".format(n, *(100 * value for value in off)))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

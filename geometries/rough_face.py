@@ -13,6 +13,7 @@ slow sliding is mu_0 times the least over the mean load for any face, and over v
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, load, shaken = 2 * np.pi * 500, 0.4, 100.0, 20.0
 steel = mdr.ElasticPair(E_1=210e9, nu_1=0.3, E_2=210e9, nu_2=0.3)
@@ -37,8 +38,6 @@ def figure():
     """COF over velocity of three finishes, and the critical velocity over the length of roughness."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
         for (name, curve), colour in zip(curves.items(), COLOURS, strict=False):
@@ -59,6 +58,4 @@ if __name__ == "__main__":
     print("finish     l [µm]   v_c [mm/s]   static COF")
     for name, curve in curves.items():
         print(f"{name:9} {1e6 * finish[name]:7.2f} {1e3 * curve.v_c:12.4f} {curve.static_cof:12.4f}")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

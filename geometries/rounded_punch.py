@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 
 import mdr
 from mdr.closed_forms.paper import deficit
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, dF_z, least = 2 * np.pi * 20, 0.6, 300.0, 500.0
 titanium = mdr.ElasticPair(E_1=115e9, nu_1=0.32, E_2=115e9, nu_2=0.32)
@@ -46,8 +47,6 @@ def figure():
     """v_c over the mean load of the three pads, and their friction under the least of the loads."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
         for i, ((shape, values), mark, colour) in enumerate(zip(v_c.items(), "s^o", COLOURS, strict=False)):
@@ -77,6 +76,4 @@ if __name__ == "__main__":
         small, mu = 1e6 * mdr.critical_velocity(pad(shape, least)), ", ".join(f"{value / mu_0:.4f}" for value in values)
         print(f"{shape}, 300 N of 500 N: v_c {1e6 * full[shape]:.2f} µm/s ({small:.2f} if small)")
         print(f"   mu/mu_0 {mu} at {shares} of v_c: within {departure[shape]:.1e} of psi")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -19,6 +19,7 @@ import argparse
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 depth, mu_0 = 100e-6, 0.8  # m, -
 rubber = mdr.StandardLinearSolid(E_inf=3e6, E_1=3e6, tau_1=1e-3, nu=0.5)
@@ -74,8 +75,6 @@ def figure(table=coarse):
     import matplotlib.pyplot as plt
     from matplotlib.colors import LogNorm, Normalize
 
-    from mdr.plots import COLOURS, style
-
     frequency, amplitude = table.axes["oscillation.omega"] / (2 * np.pi), 1e6 * table.axes["oscillation.du_z"]
     speed = fastest_half(table)
     share = speed / table["v_c"][:, :, 0]
@@ -114,6 +113,4 @@ if __name__ == "__main__":
     at = [int(np.argmin(np.abs(amplitude - x * depth))) for x in (0.5, 0.95)]
     for omega, least, row in zip(table.axes["oscillation.omega"], least_amplitude(table), speed, strict=True):
         print(f"{omega / (2 * np.pi):12.0f} {1e6 * least:24.1f} {row[at[0]]:35.2f} {row[at[1]]:10.2f}")
-    from mdr.plots import save
-
     print("figure:", save(figure(table), __file__))

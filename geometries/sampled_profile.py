@@ -10,6 +10,7 @@ fall is refused: a ring would touch before the disc inside it.
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 truth = mdr.CappedParaboloid(R1=20e-3, R2=8e-3, b=0.5e-3)
 r = np.linspace(0, 1.6e-3, 33)
@@ -49,8 +50,6 @@ def figure():
     """One measurement with its spline and image, and the scatter of what follows from it."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     shape, fine = draws[noises[-1]][0], np.linspace(0, 1e-3, 300)
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
@@ -77,6 +76,4 @@ if __name__ == "__main__":
     for noise, error in scatter.items():
         row = "{:10.2f} {:17.3f} {:9.3f} {:9.3f} {:17d} of {:d}"
         print(row.format(1e6 * noise, *(100 * error), n_draws - len(draws[noise]), n_draws))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 warnings.simplefilter("ignore", mdr.PlausibilityWarning)  # the ball is pressed far beyond small slopes, on purpose
 ball, parabola = mdr.Sphere(R=5e-6), mdr.Paraboloid(R=5e-6)
@@ -65,8 +66,6 @@ def figure():
     """v_c over depth, and the error of the parabola in force, v_c and friction."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     flat = [mdr.critical_velocity(contact(d, parabola)) for d in depths]
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
@@ -94,6 +93,4 @@ if __name__ == "__main__":
     print(f"{1e6 * probed:g} µm deep: v_c = {1e6 * full:.2f} µm/s, Eq. (1) {1e6 * eq_1:.2f} µm/s; at a quarter of it,")
     pairs = zip(runs[ball], runs[parabola], strict=True)
     print("a half, three quarters: COF", ", ".join(f"{one.cof:.5f} (parabola {two.cof:.5f})" for one, two in pairs))
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -24,6 +24,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 table = np.loadtxt(Path(__file__).with_name("luo_2024.csv"), delimiter=",", skiprows=5)
 v_0, without, vibrated = 1e-3 * table[:, 0], table[:, 1], table[:, 2]  # m/s, N, N
@@ -67,8 +68,6 @@ def figure():
     """Forces under vibration, measured and by springs, fixed by the bar at rest (lines) or at 0.05 mm/s (dotted)."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.4))
         x, ticks = np.arange(v_0.size), ["at rest", *(f"{1e3 * v:g}" for v in v_0[1:])]
@@ -93,6 +92,4 @@ if __name__ == "__main__":
     print("force under vibration [N] at [mm/s]".ljust(44) + "".join(f"{1e3 * v:8.2f}" for v in v_0), "  l at 0.05 [µm]")
     for name, (forces, deflection) in rows.items():
         print(name.ljust(44) + "".join(f"{F:8.3f}" for F in forces) + f"{1e6 * deflection[1]:10.2f}")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

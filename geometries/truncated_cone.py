@@ -9,6 +9,7 @@ dynamic stiffness K_z(omega) = 2a E*(omega), Eq. (15), and so on the contact rad
 import numpy as np
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, du_z, load, slope = 2 * np.pi * 100, 0.8, 30e-6, 2.0, np.deg2rad(17)
 rubber = mdr.Prony.power_law(modulus=4e6, exponent=0.2, omega=(100, 3e3), nu=0.5, error=0.02)
@@ -42,8 +43,6 @@ def figure():
     """The worn shapes, and v_c over the radius of the face."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     r = np.linspace(-2.5e-3, 2.5e-3, 401)
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
@@ -73,6 +72,4 @@ if __name__ == "__main__":
         print("{:6.2f} {:12.3f} {:8.3f} {:22.2f} {:22.2f} {:13.3f}".format(*row))
     new, old = (f"{run.cof:.4f}" for run in runs)
     print(f"at {1e3 * v_0:g} mm/s the COF is {new} for the new stone, {old} for the worn one")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

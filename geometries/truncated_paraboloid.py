@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0, ball = 2 * np.pi * 25, 0.1, 3e-3
 ptfe = mdr.KelvinVoigt.from_loss_tangent(E=0.5e9, nu=0.46, tan_delta=0.1, omega=omega)
@@ -39,8 +40,6 @@ cof = {b: np.array([mdr.slide(case, v, **coarse).cof for v in v_0 if v < full[b]
 def figure():
     """COF over velocity at three stages of wear, and v_c over the flat."""
     import matplotlib.pyplot as plt
-
-    from mdr.plots import COLOURS, style
 
     with style():
         fig, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2))
@@ -70,6 +69,4 @@ if __name__ == "__main__":
         small = mdr.critical_velocity(case)
         print(f"{1e3 * b:9.1f} {at_rest[b]:13.4f} {1e6 * small:29.1f} {1e6 * full[b]:22.1f}")
     print(f"v_c is half of the new ball's at a flat of {1e3 * halved:.3f} mm radius")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

@@ -22,6 +22,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import mdr
+from mdr.plots import COLOURS, save, style
 
 omega, mu_0 = 2 * np.pi * 20e3, 0.2  # rad/s, -
 steel, pin = mdr.ElasticPair(E_1=210e9, nu_1=0.3, E_2=210e9, nu_2=0.3), mdr.Paraboloid(R=20e-3)
@@ -83,8 +84,6 @@ def figure():
     """Left: friction over velocity. Right: over the amplitude, at rest and at one speed, for three loads."""
     import matplotlib.pyplot as plt
 
-    from mdr.plots import COLOURS, style
-
     with style():
         fig, axes = plt.subplot_mosaic([["curve", "rest"], ["curve", "sliding"]], sharey=True, figsize=(8.6, 5.8))
         curve, rest, sliding = axes["curve"], axes["rest"], axes["sliding"]
@@ -129,6 +128,4 @@ if __name__ == "__main__":
     print(f"{1e6 * amplitudes[0]:g} µm at {speed:g} m/s leave {run.cof / mu_0:.3f} of the friction:", end=" ")
     print(f"the pull gives {frequency * energy.pull_work:.2f} W instead of {mu_0 * usual * speed:.2f} W,", end=" ")
     print(f"the transducer {frequency * energy.shake_work:.2f} W")
-    from mdr.plots import save
-
     print("figure:", save(figure(), __file__))

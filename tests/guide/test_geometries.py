@@ -3,9 +3,9 @@
 That the library's numbers are right is asked of the library; here each script is asked for its own point.
 """
 
-import importlib.util
 import sys
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import matplotlib as mpl
@@ -20,7 +20,6 @@ from mdr.element.fmu import NoCompiler, compiler
 FOLDER = Path(__file__).parents[2] / "geometries"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.py"))
 KAPPA = 1.5  # incompressible, (2 - nu)/(2 (1 - nu))
-loaded = {}
 
 
 def script(name):
@@ -31,13 +30,9 @@ def script(name):
             compiler()
         except NoCompiler as fault:
             pytest.skip(str(fault))
-    if name not in loaded:
-        if name == "depths":
-            sys.modules["gallery"] = script("gallery")  # it imports the script beside it
-        spec = importlib.util.spec_from_file_location(f"geometries_{name}", FOLDER / f"{name}.py")
-        loaded[name] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(loaded[name])
-    return loaded[name]
+    if name == "depths":
+        sys.modules["gallery"] = script("gallery")  # it imports the script beside it
+    return import_module(f"geometries.{name}")
 
 
 def rising(*values):
