@@ -32,8 +32,6 @@ ORDER = (
 RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
 DOORS = ("read",)  # methods of records that may import upwards
 OUTSIDE = {"mdr", "mdr.__main__"}  # of any room: the public names and the command
-#: Imports against the order, each with its reason. The list may only shrink.
-NAMED: dict[tuple[str, str], str] = {}
 #: The one place that asks both springs and the half-space, to set them side by side.
 JUDGED = {("mdr.friction.verdict", "mdr.half_space")}
 
@@ -114,10 +112,6 @@ def room_of(module):
     return module.split(".")[1] if module.count(".") > 1 or module.partition(".")[2] in RANK else ""
 
 
-def inside(rooms, known):
-    return {module for module in known if room_of(module) in rooms}
-
-
 def ways_between(imports, known, start, goals, without=()):
     """The ways from one set of modules to another, as text."""
     ways = reach(imports, sorted(start), without)
@@ -140,8 +134,7 @@ def test_a_room_imports_from_itself_and_from_earlier_ones(house):
     wrong = [
         f"{module} -> {imported}"
         for module, imported, door in sorted(imports)
-        if module not in OUTSIDE and not door and (module, imported) not in NAMED
-        if not may_import(room_of(module), room_of(imported))
+        if module not in OUTSIDE and not door and not may_import(room_of(module), room_of(imported))
     ]
     assert wrong == []
 
@@ -166,12 +159,6 @@ def test_no_circles(house):
     assert circles({one for one in imports if not one.door}) == []
 
 
-def test_exceptions_are_still_needed(house):
-    _, imports = house
-    edges = {(module, imported) for module, imported, _ in imports}
-    assert set(NAMED) <= edges
-
-
 SOLVERS = {"normal", "closed_forms", "march", "friction", "studies"}
 #: rooms or modules, those that they must not reach by any way, and why
 WALLS = {
@@ -182,6 +169,7 @@ WALLS = {
     "springs know no half-space": ({"march", "friction", "mdr.normal.springs"}, {"half_space"}),
     "the measured velocity knows no closed form": ({mdr.measure_critical_velocity.__module__}, {"closed_forms"}),
     "a record never solves": ({"case"}, SOLVERS),
+    "pictures compute nothing": ({"plots"}, SOLVERS),
     "a reader does not solve": ({"files"}, {"given", *SOLVERS}),
     "the normal problem knows none of the words of users": ({"normal"}, {"given", "mdr.case.paths"}),
 }  # fmt: skip
@@ -194,7 +182,7 @@ def test_no_way_leads_through_a_wall(house, wall):
     assert start
     assert goals
     no_doors = {one for one in imports if not one.door}
-    assert ways_between(no_doors, known, start, goals, JUDGED | set(NAMED)) == []
+    assert ways_between(no_doors, known, start, goals, JUDGED) == []
 
 
 def test_the_normal_motion_of_a_spring_has_no_friction_in_it(house):
@@ -225,12 +213,6 @@ def test_commands_do_not_need_the_page(house):
     _, imports = house
     asked = {imported for module, imported, _ in imports if room_of(module) == "commands"}
     assert {module for module in asked if room_of(module) == "explorer"} == {"mdr.explorer.server"}
-
-
-def test_pictures_compute_nothing(house):
-    known, imports = house
-    asked = {imported for module, imported, _ in imports if room_of(module) == "plots"}
-    assert asked & inside({"normal", "closed_forms", "march", "friction"}, known) == set()
 
 
 def test_imports_are_found_wherever_they_stand(tmp_path):
