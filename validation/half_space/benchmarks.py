@@ -5,12 +5,11 @@ through cells: its radius on the grid is that of a disc of the same area.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
-import mdr
 from mdr.half_space.friction import BELOW, MARGIN
 from mdr.half_space.influence import HalfSpace, X, Y, Z
 from mdr.half_space.normal import pressure
@@ -115,36 +114,3 @@ def spence(n: int, nu: float, mu_0: float, steps: int = 0) -> float:
     size, touching = np.hypot(*step.tractions[:2]), step.pressure > 0
     sticks = touching & (size < BELOW * mu_0 * step.pressure)
     return radius_of(sticks, half_space.h) / radius_of(touching, half_space.h)
-
-
-# --- the errors that a run states ---
-
-_OMEGA, _BODY = 300.0, mdr.Elastic(E=3e6, nu=0.0)  # nu = 0: without coupling springs are exact
-_KELVIN = mdr.KelvinVoigt(E=3e6, nu=0.0, tau=2e-3)
-_NORMAL = mdr.SlidingContact(
-    mdr.Paraboloid(R=5e-3), _BODY, 0.3, mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=_OMEGA)
-)
-_SHAKE = mdr.InPlaneOscillation(omega=_OMEGA, du_x=10e-6, phi_x=0.3)
-_ALONG = replace(_NORMAL, oscillation=mdr.ConstantDepth(20e-6), shake=_SHAKE)
-_CONE, _PUNCH = mdr.Cone(theta=0.05), mdr.FlatPunch(a=3e-4)
-
-#: contacts that springs know in closed form
-KNOWN = {
-    "normal": _NORMAL,
-    "along": _ALONG,
-    "both": replace(_NORMAL, shake=_SHAKE),
-    "contact lost": replace(_NORMAL, oscillation=mdr.NormalOscillation(u_z0=20e-6, du_z=26e-6, omega=_OMEGA)),
-    "cone": replace(_NORMAL, indenter=_CONE),
-    "cone, along": replace(_ALONG, indenter=_CONE),
-    "punch": replace(_NORMAL, indenter=_PUNCH),
-    "Kelvin": replace(_NORMAL, material=_KELVIN),
-    "Kelvin, both": replace(_NORMAL, material=_KELVIN, shake=_SHAKE),
-}
-
-
-def share_of_error(name: str, v: float, cells: int, steps: int) -> float:
-    """What a run is off by at v times the unit of velocity, over the bound that it states: no more than 1."""
-    case = KNOWN[name]
-    v_0 = v * case.unit_velocity
-    found = mdr.half_space.slide(case, v_0, cells=cells, steps_per_period=steps, coupled=False)
-    return float(abs(found.cof - mdr.cof_curve(case, [v_0]).cof[0]) / found.cof_error)
