@@ -53,6 +53,7 @@ from validation.cases import SHAPES, contact
 from validation.figures import COLOURS, figure
 from validation.report import Check, Checks, Claim, Equation, told
 from validation.uniqueness_in_the_plane import checks as checks_in_the_plane
+from validation.uniqueness_in_the_plane import falls, growth
 
 SPRINGS, STEPS = 96, 512  # of the random systems: every start of one has the same, so the COFs must agree without them
 SYSTEMS = {"quick": 6, "full": 60, "long": 200}
@@ -138,13 +139,6 @@ def _followed(one: Waiting, two: Waiting) -> Array:
         two.advance(1)
         found.append(distance(one, two))
     return np.array(found)
-
-
-def growth(system: System) -> float:
-    """Largest growth of D over a period, over D, while D is more than rounding."""
-    D = distances(system)
-    told = D[:-1] > 1e-16 * D[0]
-    return float(np.max(D[1:][told] / D[:-1][told]) - 1)
 
 
 def drawn(n: int) -> list[System]:
@@ -290,7 +284,7 @@ def claim(effort: str) -> Claim:
 
 
 def _distance_checks(found: list[Ends]) -> Checks:
-    fastest = max(growth(e.system) for e in found)
+    fastest = max(growth(distances(e.system), 1e-16) for e in found)
     why = "springs and body are exact on the parabolas of a step, so that only rounding can move them apart"
     name = f"largest growth of the distance of two motions over a period, {len(found)} systems"
     yield Check.at_most(name, fastest, ROUNDING, why)
@@ -327,8 +321,6 @@ def _curves(effort: str) -> list[tuple[System, list[mdr.SlidingRun]]]:
 
 
 def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str) -> Checks:
-    pairs = [pair for _, runs in curves for pair in combinations([run for run in runs if run.settled], 2)]
-    falls = [(a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0 for a, b in pairs]
     n_settled = sum(run.settled for _, runs in curves for run in runs)
     damped = [run.settled for system, runs in curves if system.damping_ratio for run in runs]
     name = f"largest fall of COF/μ_0 with velocity, less both errors, {n_settled} runs of {len(curves)} systems"
@@ -339,7 +331,8 @@ def _curve_checks(curves: list[tuple[System, list[mdr.SlidingRun]]], effort: str
         case = contact(names[int(rng.integers(4))], float(0.02 * 250 ** rng.uniform()), T)
         cof = average_friction(case, v_hat * mdr.critical_velocity(case)).cof / case.mu_0
         drops.append(np.max(-np.diff(cof)))
-    yield Check.at_most(name, max(falls), 1e-12, "the errors that the runs state; rounding")
+    most = max(falls(runs for _, runs in curves))
+    yield Check.at_most(name, most, 1e-12, "the errors that the runs state; rounding")
     yield Check(f"settled of the {len(damped)} runs with a damper", sum(damped), len(damped), 0, "transients die out")
     name = f"largest fall in {len(drops)} closed-form curves of rigid pulls"
     yield Check.at_most(name, max(drops), 1e-8, "accuracy of the closed form")

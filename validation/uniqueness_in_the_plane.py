@@ -13,6 +13,7 @@ the mean forces; those that never slip, which is so only at v_0 = 0, may keep an
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import combinations
 
 import numpy as np
 
@@ -104,7 +105,7 @@ def _apart(motions: list[MarchState], w: Array) -> float:
 def checks(effort: str) -> Checks:
     """Two motions, and curves."""
     systems = drawn(SYSTEMS[effort])
-    growths, gaps = zip(*((_growth(followed(one)[0]), followed(one)[1]) for one in systems), strict=True)
+    growths, gaps = zip(*((growth(followed(one)[0], 1e-12), followed(one)[1]) for one in systems), strict=True)
     name = f"in the plane: largest growth of the distance of two motions over a period, {len(systems)} systems"
     yield Check.at_most(name, max(growths), STEP, "turns are of fourth order in the step")
     name = "in the plane: largest difference of two motions, in springs that slip in the last period"
@@ -116,18 +117,18 @@ def checks(effort: str) -> Checks:
     yield Check.at_most("its change in the last period", abs(D[-1] / D[-2] - 1), STEP, "the others have one state")
     curves = [[mdr.slide(one.case, v * one.v_0 / one.v) for v in FASTER] for one in systems[: CURVES[effort]]]
     name = f"in the plane: largest fall of COF/μ_0 with velocity, less both errors, {len(curves)} systems"
-    yield Check.at_most(name, max(_falls(curves)), 1e-12, "the errors that the runs state; rounding")
-    sides = [np.ptp(np.sign(np.diff([run.cof_y for run in runs]))) for runs in curves]
-    yield Check.at_least(
-        "curves of which the force across rises and falls", sum(map(bool, sides)), 1, "nothing orders it"
-    )
+    yield Check.at_most(name, max(falls(curves)), 1e-12, "the errors that the runs state; rounding")
+    both = sum(bool(np.ptp(np.sign(np.diff([run.cof_y for run in runs])))) for runs in curves)
+    yield Check.at_least("curves of which the force across rises and falls", both, 1, "nothing orders it")
 
 
-def _growth(D: Array) -> float:
-    told = D[:-1] > 1e-12 * D[0]
+def growth(D: Array, rounding: float) -> float:
+    """Largest growth of a distance over a period, over it, while it is more than this share of that at the start."""
+    told = D[:-1] > rounding * D[0]
     return float(np.max(D[1:][told] / D[:-1][told]) - 1)
 
 
-def _falls(curves: Iterable[list[mdr.SlidingRun]]) -> list[float]:
-    pairs = [(a, b) for runs in curves for i, a in enumerate(runs) for b in runs[i + 1 :]]
-    return [(a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0 for a, b in pairs if a.settled and b.settled]
+def falls(curves: Iterable[list[mdr.SlidingRun]]) -> list[float]:
+    """By how much COF/mu_0 falls from one velocity to a higher one, less both errors; runs that settled."""
+    pairs = [pair for runs in curves for pair in combinations([run for run in runs if run.settled], 2)]
+    return [(a.cof - b.cof - a.cof_error - b.cof_error) / a.mu_0 for a, b in pairs]
