@@ -124,9 +124,7 @@ def half_of(shape: str, T: float, coarse: bool) -> Half:
     n_alpha, n_v = (16, 31) if coarse else (60, 121)
     axes = {"alpha": np.geomspace(0.02, 20, n_alpha), "v_0/v_c": np.linspace(0, 0.6, n_v)}
     study = mdr.sweep(contact(shape, 0.1, T), axes)
-    v, cof = study.axes["v_0/v_c"], study["cof"] / RIGID.mu_0
-    reach = max(float(np.interp(0.5, row, v)) if row[0] < 0.5 else 0.0 for row in cof)
-    return Half(shape, T, float(brentq(excess, 1e-3, 2)), reach)
+    return Half(shape, T, float(brentq(excess, 1e-3, 2)), reach_of_half(study))
 
 
 def place(omega: float, tau: float) -> mdr.SlidingContact:
