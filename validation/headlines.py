@@ -5,6 +5,8 @@ Each headline names all checks, of whatever claim, that set a measured critical 
 
 import re
 
+Places = tuple[tuple[str, str], ...]  #: claim, and how the names of its checks begin
+
 _RIGID = (
     ("rigid_pull", r"measured v_c over Eq\. \(1\).*(contact kept|back in time)\)"),
     ("generalisation", r".*rigid pull: (worst \|v_c/Eq\. \(1\) − 1\||measured v_c over Eq\. \(1\))"),
@@ -15,8 +17,8 @@ _PUNCH = (
     ("generalisation", r"measured v_c over (the closed form: flat punch|the formula: flat punch.*body)"),
 )
 
-#: headline -> claim, and how the names of its checks begin; full slip is Eq. (1) or (15) where these are exact
-HEADLINES: dict[str, tuple[tuple[str, str], ...]] = {
+#: of each headline; full slip is Eq. (1) or (15) where these are exact
+HEADLINES: dict[str, Places] = {
     "rigid pull": _RIGID,
     "flat punch on a spring": _PUNCH,
     "full slip": (
@@ -38,7 +40,12 @@ def reads(headline: str, claim: str, name: str) -> bool:
     """Whether a headline reads the check of this name; ValueError for a headline that there is not."""
     if headline not in HEADLINES:
         raise ValueError(f"a headline is one of {', '.join(HEADLINES)}, got {headline!r}")
-    return any(claim == of and re.match(begins, name) for of, begins in HEADLINES[headline])
+    return is_at(HEADLINES[headline], claim, name)
+
+
+def is_at(places: Places, claim: str, name: str) -> bool:
+    """Whether the check of this name is at one of the places."""
+    return any(claim == of and re.match(begins, name) for of, begins in places)
 
 
 def difference(name: str, got: float, expected: float, why: str) -> float:

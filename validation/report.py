@@ -166,19 +166,16 @@ class Claim:
     def __post_init__(self) -> None:
         """Ask for a name to link to, a verdict, and at least one check; no two with one name."""
         _require_slug("claim", self.name)
-        if self.parts:
-            for what in ("checks", "figures"):
-                object.__setattr__(self, what, [one for part in self.parts for one in getattr(part, what)])
-        object.__setattr__(self, "checks", tuple(self.checks))
-        object.__setattr__(self, "figures", tuple(self.figures))
+        for what in ("checks", "figures"):
+            own = (one for part in self.parts or (self,) for one in getattr(part, what))
+            object.__setattr__(self, what, tuple(own))
         if not re.match(rf"holds$|holds if \S|fails when \S|{NOT_TESTED}", self.verdict):
             raise ValueError(f"claim {self.name}: verdict must be one of {VERDICTS}, got {self.verdict!r}")
         if not self.checks:
             raise ValueError(f"claim {self.name}: a claim without checks proves nothing; add a Check")
-        if len({figure.name for figure in self.figures}) < len(self.figures):
-            raise ValueError(f"claim {self.name}: two figures have the same name; rename one")
-        if len({check.name for check in self.checks}) < len(self.checks):
-            raise ValueError(f"claim {self.name}: two checks have the same name; rename one")
+        for what, named in (("figures", self.figures), ("checks", self.checks)):
+            if len({one.name for one in named}) < len(named):
+                raise ValueError(f"claim {self.name}: two {what} have the same name; rename one")
 
     @classmethod
     def broken(cls, name: str, error: str) -> "Claim":

@@ -46,11 +46,7 @@ def number(value: float | None, tolerance: float = 0.0) -> str:
         digits = min(max(math.ceil(math.log10(abs(value) / tolerance)) + 2, 3), 10)
     else:
         digits = 4
-    mantissa, _, exponent = f"{value:.{digits}g}".replace("-", "−").partition("e")
-    if not exponent:
-        return mantissa
-    power = f"10<sup>{exponent[0].replace('+', '')}{exponent[1:].lstrip('0')}</sup>"
-    return power if mantissa == "1" else f"{mantissa}·{power}"
+    return markup(f"{value:.{digits}g}")
 
 
 def _power_of_ten(match: re.Match[str]) -> str:

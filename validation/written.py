@@ -56,8 +56,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         "--check", action="store_true", help="change nothing; fail where a place is not as it should be"
     )
     args = parser.parse_args(argv)
-    claims = json.loads((args.record or RECORD).read_text(encoding="utf-8"))["claims"]
-    if missing := [name for name in CLAIMS if name not in {claim["name"] for claim in claims}]:
+    record = json.loads((args.record or RECORD).read_text(encoding="utf-8"))
+    if missing := [name for name in CLAIMS if name not in {claim["name"] for claim in record["claims"]}]:
         parser.error(f"the record lacks {', '.join(missing)}: give checks.json of a full report, python -m validation")
     if args.record is not None and not args.check:
         shutil.copyfile(args.record, RECORD)
@@ -65,7 +65,6 @@ def main(argv: Sequence[str] | None = None) -> int:
             shutil.copyfile(glance, RECORD.with_name("claim.svg"))
         pins = "".join(f"{name}=={version_of(name)}\n" for name in sorted(PARTS))
         CONSTRAINTS.write_text(pins, encoding="utf-8")
-    record = json.loads((args.record or RECORD).read_text(encoding="utf-8"))
     stale = 0
     for page in pages():
         text = page.read_text(encoding="utf-8")
@@ -126,7 +125,7 @@ def _farthest(headline: str, record: dict[str, Any]) -> float:
 def formatted(value: float, digits: str, style: str = "") -> str:
     """A number with so many significant digits, small and large ones as powers of ten."""
     if style == "%":
-        return f"{formatted(100 * value, digits)} %"
+        return words.percent(value, int(digits))
     if style == "tex" and value and not 1e-3 <= abs(value) < 1e5:
         mantissa, exponent = f"{value:.{int(digits) - 1}e}".split("e")
         return rf"${mantissa} \times 10^{{{int(exponent)}}}$"

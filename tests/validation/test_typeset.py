@@ -10,8 +10,7 @@ import pytest
 from validation.formula import mathml
 from validation.page.paper import PAPER, SYMBOLS
 from validation.typeset import markup, number
-from validation.words import counted, listed, percent, ranged, span
-from validation.words import number as number_in_words
+from validation.words import counted, listed, ranged, span
 
 
 @pytest.mark.parametrize(
@@ -61,11 +60,6 @@ def test_counts_and_enumerations():
     ]  # fmt: skip
     assert counted(3, "shape") == "three shapes"
     assert [listed(some) for some in ((0.3,), (0.3, 1), ("a", "b", "c"))] == ["0.3", "0.3 and 1", "a, b and c"]
-
-
-def test_numbers_in_sentences():
-    assert [number_in_words(v) for v in (1300, 2e-4, 1e-5, -0.5, 0)] == ["1300", "2·10⁻⁴", "10⁻⁵", "−0.5", "0"]
-    assert percent(0.0835) == "8.3 %"
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 
-from validation import headlines
+from validation.headlines import HEADLINES, Places, difference, is_at
 from validation.report import Check, Claim
 from validation.words import counted, number, percent, span
 
@@ -15,10 +15,10 @@ def answers(claims: Sequence[Claim]) -> list[str]:
     """
     sentences, asked = [], False
     for name, checks, sentence in (
-        ("Rigid pull and flat punch", {"rigid": "rigid pull", "punch": "flat punch on a spring"}, _exact),
+        ("Rigid pull and flat punch", {"rigid": _RIGID, "punch": _PUNCH}, _exact),
         ("Curved shape on a spring", {"power": _POWER, "error": _ERROR}, _curved),
         ("Resonance with a harmonic", {"reduction": _REDUCTION}, _resonance),
-        ("Full slip", {"full_slip": "full slip", "far": _FAR}, _instead),
+        ("Full slip", {"full_slip": _FULL_SLIP, "far": _FAR}, _instead),
     ):
         found = {key: _found(claims, where) for key, where in checks.items()}
         missed = len({check for some in found.values() for check in some if not check.held})
@@ -31,27 +31,21 @@ def answers(claims: Sequence[Claim]) -> list[str]:
     return sentences if asked else []
 
 
-#: claim, and how the names of its checks begin
-_POWER = ("generalisation", r"\w.*, stiff spring: power of α in the deviation")
-_ERROR = ("generalisation", r"curved shapes: largest \|v_c/Eq\. \(15\) − 1\| measured")
-_REDUCTION = ("resonances", r"\(1 − COF/μ_0\) F_0/\|F_n\| at (\d+) v_c: .*ω_0 = [2-9]ω")
-_FAR = ("generalisation", r"worst \|v_c/full-slip value − 1\|")  # large amplitude, contact lost
+_RIGID, _PUNCH, _FULL_SLIP = (HEADLINES[one] for one in ("rigid pull", "flat punch on a spring", "full slip"))
+_POWER = (("generalisation", r"\w.*, stiff spring: power of α in the deviation"),)
+_ERROR = (("generalisation", r"curved shapes: largest \|v_c/Eq\. \(15\) − 1\| measured"),)
+_REDUCTION = (("resonances", r"\(1 − COF/μ_0\) F_0/\|F_n\| at (\d+) v_c: .*ω_0 = [2-9]ω"),)
+_FAR = (("generalisation", r"worst \|v_c/full-slip value − 1\|"),)  # large amplitude, contact lost
 
 
-def _found(claims: Sequence[Claim], where: str | tuple[str, str]) -> list[Check]:
-    """Checks of a headline, or of one claim."""
-
-    def asked(claim: str, check: str) -> bool:
-        if isinstance(where, str):
-            return headlines.reads(where, claim, check)
-        return claim == where[0] and bool(re.match(where[1], check))
-
-    return [c for claim in claims for c in claim.checks if c.got is not None and asked(claim.name, c.name)]
+def _found(claims: Sequence[Claim], places: Places) -> list[Check]:
+    """Checks with a number at these places."""
+    return [c for claim in claims for c in claim.checks if c.got is not None and is_at(places, claim.name, c.name)]
 
 
 def _off(checks: Sequence[Check]) -> str:
     """To what the velocities agree, over all checks; and whether all that there is is one measurement."""
-    most = max(headlines.difference(c.name, c.got or 0.0, c.expected, c.why) for c in checks)
+    most = max(difference(c.name, c.got or 0.0, c.expected, c.why) for c in checks)
     return number(most) + (" on one measurement" if [c.name[-5:] for c in checks] == [" of 1"] else "")
 
 
