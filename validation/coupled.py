@@ -19,7 +19,7 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
-from mdr.half_space.friction import Settings, in_three_dimensions, last_period
+from mdr.half_space.friction import Settings, in_three_dimensions
 from validation.cases import contact
 from validation.figures import COLOURS, figure, outer_labels
 from validation.half_space import pictures, tables
@@ -77,7 +77,7 @@ def claim(effort: str) -> Claim:
     return Claim(
         **told(claim, locals()),
         checks=(*_equal_checks(quick), *_table_checks(rows), *_again_checks(rows, quick)),
-        figures=(_curve_figure(rows), _map_figure(21 if quick else 41, 24 if quick else 60)),
+        figures=(_curve_figure(rows), _map_figure(quick)),
     )
 
 
@@ -165,7 +165,7 @@ def _curve_figure(fig, panels, rows: list[Row]):
 
 
 @figure("map", 1, 4, size=(10.4, 3.1), sharey=True)
-def _map_figure(fig, panels, cells: int, steps: int):
+def _map_figure(fig, panels, quick: bool):
     """Four maps of the contact over a period with regions of stick and arrows of slip.
 
     The contact of a paraboloid from above at {shown:g} v_c (ν = μ_0 = 0.3, Δu_z/u_z0 = {alpha:g}). Dark: stick. Yellow:
@@ -173,7 +173,5 @@ def _map_figure(fig, panels, cells: int, steps: int):
     and second) what sticks is a region shifted to the trailing edge, and around it the indenter slips outward, over a
     surface that is drawn to the middle; on retreat all slips, along the pull.
     """
-    case = contact("paraboloid", ALPHA, mu_0=0.3, nu=0.3)
-    settings = Settings(cells, steps, cycles=2)
-    pictures.period(panels, last_period(case, SHOWN * mdr.critical_velocity(case), settings))
+    pictures.period(panels, pictures.last_of_a_paraboloid(SHOWN, quick))
     return {"shown": SHOWN, "alpha": ALPHA}

@@ -36,7 +36,7 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.coupling import radial_rub
-from mdr.half_space.friction import LastPeriod, Settings, contact_of, in_three_dimensions, last_period, path, stuck
+from mdr.half_space.friction import LastPeriod, Settings, contact_of, in_three_dimensions, path, stuck
 from validation.cases import LOOKS, contact, shape_label
 from validation.figures import figure
 from validation.half_space import pictures, tables
@@ -112,7 +112,7 @@ def claim(effort: str) -> Claim:
     quick = effort == "quick"
     cells = 17 if quick else 31
     ends = {known: end(*known, cells) for known in (ENDS[:1] if quick else ENDS)}
-    seen = _map(21 if quick else 41, 24 if quick else 60)
+    seen = pictures.last_of_a_paraboloid(ABOVE, quick)
     by_mu = {
         mu_0: [(v - 1) / _rub(k) for k, v in ends.items() if k[2] == mu_0] for mu_0 in sorted({k[2] for k in ends})
     }
@@ -165,11 +165,6 @@ def _sticks(case: mdr.SlidingContact, v: float, settings: Settings) -> bool:
     depth, way, dt = path(case, v * mdr.critical_velocity(case), settings)
     steps = judged.march(judged.full_slip(float(depth[0])), depth[:half], way[:, :half], dt)
     return any(stuck(judged, step).any() for step in steps)
-
-
-def _map(cells: int, steps: int) -> LastPeriod:
-    case = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3)
-    return last_period(case, ABOVE * mdr.critical_velocity(case), Settings(cells, steps, cycles=2))
 
 
 def _before(alpha: float, shape: str) -> float:

@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr.half_space.friction import MARGIN, LastPeriod, stuck
+import mdr
+from mdr.half_space.friction import MARGIN, LastPeriod, Settings, last_period, stuck
 from mdr.tools.arrays import Array
+from validation.cases import contact
 
 OPEN, SLIPS, STICKS = "#FFFFFF", "#F6D98B", "#0B3C6F"
 ARROWS = 13  #: along a side, at most
@@ -17,6 +19,13 @@ def places(found: LastPeriod) -> tuple[Array, Array]:
     side = MARGIN * (2 * np.arange(n) + 1 - n) / n
     x, y = np.meshgrid(side, side, indexing="ij")
     return x, y
+
+
+def last_of_a_paraboloid(v: float, quick: bool) -> LastPeriod:
+    """The last period at v over Eq. (1), elastic, nu = mu_0 = du_z/u_z0 = 0.3, with all couplings."""
+    case = contact("paraboloid", 0.3, mu_0=0.3, nu=0.3)
+    settings = Settings(*((21, 24) if quick else (41, 60)), cycles=2)
+    return last_period(case, v * mdr.critical_velocity(case), settings)
 
 
 def period(panels: Any, found: LastPeriod) -> None:
