@@ -21,11 +21,10 @@ import mdr
 from mdr import laws
 from validation.cases import BODY, LOOKS, OMEGA, SHAPES, reach, shaken, shape_label
 from validation.figures import COLOURS, figure, panel
-from validation.measured import with_band
+from validation.measured import RUN, with_band
 from validation.report import Check, Checks, Claim, told
 
 ALPHA, QUARTER = 0.5, math.pi / 2  #: of the figure; phase of the shake
-RUN = "what a run promises when it chooses step and springs itself"
 
 
 def claim(effort: str) -> Claim:

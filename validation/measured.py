@@ -12,6 +12,8 @@ from mdr.tools.arrays import Array
 
 TOLERANCE = 2e-5 + (2 * np.pi / 1024) ** 2  #: bracket of a measurement, and second order in its step, over v_c
 
+RUN = "what a run promises when it chooses step and springs itself"  #: why a COF is that good
+
 SHARP = 3e-5  #: under a rigid pull: the bracket on either side, and h²/6 by which a mean over a step misses least slip
 
 

@@ -19,13 +19,13 @@ import mdr
 from mdr import laws
 from validation.cases import DEPTH, OMEGA, SHAPES, loss, shaken
 from validation.figures import COLOURS, figure, panel
+from validation.measured import RUN
 from validation.report import Check, Checks, Claim, Equation, told
 
 MU_0 = 0.5
 FAST = (8.0, 16.0)  #: v_0/(omega du_y), of laws of fast slides
 SLOW, STIFF = 0.01, (1.5, 2.0, 3.0, 5.0, 12.0, 40.0)  #: r, and eta, of slow slides of a flat punch
 QUARTER = math.pi / 2
-RUN = "what a run promises when it chooses step and springs itself"
 
 
 def across(shape: str, eta: float, alpha: float = 0.0, phi: float = 0.0, T: float = 0.0) -> mdr.SlidingContact:

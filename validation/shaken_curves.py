@@ -22,13 +22,12 @@ from mdr.half_space.friction import Settings, in_three_dimensions
 from validation.cases import DEPTH, LOOKS, SHAPES, shaken, shape_label
 from validation.figures import COLOURS, figure, panel
 from validation.half_space.springs import of_springs
-from validation.measured import lost, with_band
+from validation.measured import RUN, lost, with_band
 from validation.report import Check, Checks, Claim, told
 
 CHIS = (0.3, 1.0, 3.0, 30.0)  #: of the figure
 ALPHA_3D = 0.4  #: du_z/u_z0 of the contact that is computed in three dimensions
 SMALL = 1e-3  #: A over mu_0 kappa u_z0 that counts as small
-RUN = "what a run promises when it chooses step and springs itself"
 
 
 def claim(effort: str) -> Claim:
