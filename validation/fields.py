@@ -22,7 +22,7 @@ from itertools import pairwise
 import numpy as np
 
 import mdr
-from mdr.friction.surface_fields import SurfaceFields, from_line_load, surface_fields
+from mdr.friction.surface_fields import from_line_load, surface_fields
 from mdr.normal.indentation import indent
 from mdr.normal.partial_slip import partial_slip, tangential_loop
 from mdr.tools.arrays import Array
@@ -137,24 +137,19 @@ def _mindlin_checks(n: int) -> Checks:
         yield Check.at_most(f"{name}: traction of partial_slip over mu_0 p_0", worst, 1e-12, "closed on both sides")
 
 
-def run_fields(n_springs: int) -> tuple[SurfaceFields, Array, float]:
-    """The surface under a sliding run from rest, half way to full slip; the radii, and the stick radius it should have.
+def _run_checks() -> Checks:
+    """The surface under a sliding run from rest, half way to full slip.
 
     The oscillation is a thousandth of the depth, and small beside the pull.
     """
-    case = contact("paraboloid", 1e-3, mu_0=MU_0)
+    n, case = 2048, contact("paraboloid", 1e-3, mu_0=MU_0)
     knobs = {"steps_per_period": 256, "n_periods": 1, "start": "rest", "record": 1, "lump": False}
-    run = mdr.slide(case, 0.5 * FULL * OMEGA / (2 * np.pi), n_springs=n_springs, **knobs)
+    run = mdr.slide(case, 0.5 * FULL * OMEGA / (2 * np.pi), n_springs=n, **knobs)
     d_c = float(run.u_z[-1]) - float(run.u_x[-1]) / (MU_0 * BODY.mindlin_ratio)
     c = float(SHAPES["paraboloid"].contact_radius(d_c))
-    r, _ = disc(c)
-    return surface_fields(run, r), r, c
-
-
-def _run_checks() -> Checks:
-    n = 2048
-    found, r, c = run_fields(n)
-    core, weight = n // 8, disc(c)[1]  # springs of a run crowd at the edge of the contact
+    r, weight = disc(c)
+    found = surface_fields(run, r)
+    core = n // 8  # springs of a run crowd at the edge of the contact
     why = f"a/{core} is the spacing of the springs inside; the edge slips to and fro with the oscillation"
     name = f"sliding run of {n} springs: stick radius over a"
     yield Check(name, found.stick_radius / RADIUS, c / RADIUS, 1.0 / core, why)
