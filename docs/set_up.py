@@ -12,7 +12,7 @@ import numpy as np
 from mdr.plots import COLOURS, style
 
 R, A = 0.75, 0.42  #: radius of the tip and of the contact, inches on paper as all that follows
-SURFACE, TIP, FOOT, TOP = 1.12, 1.0, 2.0, 2.5  #: heights of surface and body, and where the tip is
+SURFACE, TIP, TOP = 1.12, 1.0, 2.5  #: heights of surface and body, and where the tip is
 VIBRATION, PULL, SHAKE, INK = *COLOURS[:3], "0.2"
 
 

@@ -133,9 +133,8 @@ def _motion_checks(name: str, refined: list[Motion], steps: tuple[int, ...]) -> 
     if places.max() > ROUNDING:
         above = [(np.array(steps)[errors > ROUNDING], errors[errors > ROUNDING]) for errors in places.T]
         order = min(-power(*one) for one in above)
-        yield Check(
-            f"least order in the step of u_x and u_xc: {name}", order, 4.0, 0.1, "slope of errors above rounding"
-        )
+        what = f"least order in the step of u_x and u_xc: {name}"
+        yield Check(what, order, 4.0, 0.1, "slope of errors above rounding")
         bound, why = max(finest.h**4, ROUNDING), "h⁴: the least value of a polynomial through rates at five instants"
     yield Check(f"least slip velocity less v_0 − v_c, over v_c: {name}", finest.least, 0.0, bound, why)
 

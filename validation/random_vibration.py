@@ -208,9 +208,8 @@ def _law_checks(found: Sequence[Found]) -> Checks:
         off, where = one.off[held], f"{one.series.where}, b ≥ {np.array(one.series.b)[held][0]:g}"
         name = f"loss less the law in standard errors, worst of {off.size}: {where}"
         yield Check(name, float(off[np.abs(off).argmax()]), 0.0, 2.0, "two standard errors")
-        yield Check.at_most(
-            f"standard error over the loss at the slowest: {where}", one.spread[held][0], 0.2, "it could be seen"
-        )
+        name = f"standard error over the loss at the slowest: {where}"
+        yield Check.at_most(name, one.spread[held][0], 0.2, "it could be seen")
         numerical = float((one.run.cof_error / one.run.standard_error)[held].max())
         yield Check.at_most(f"numerical over standard error: {where}", numerical, 0.5, "histories alone are random")
 
@@ -285,9 +284,8 @@ def _fail_checks(found: Sequence[Found], relaxing: Found, deep: Found) -> Checks
     slow = [(one, "slow, so deeper troughs than those of a sine") for one in (wide, table, two)]
     for one, why in (*slow, (relaxing, "the surface remembers"), (deep, "of first order in σ/u_z0")):
         where = f"b = {one.series.b[0]:g}: {one.series.where}"
-        yield Check.at_least(
-            f"the law fails, |loss less the law| in standard errors, {where}", abs(one.off[0]), 3.0, why
-        )
+        name = f"the law fails, |loss less the law| in standard errors, {where}"
+        yield Check.at_least(name, abs(one.off[0]), 3.0, why)
 
 
 # --- figure ---

@@ -108,13 +108,10 @@ def punch_paths() -> list[Path]:
     legs = through([(0, 0, 1), (1.5, 0, 1), (0.9, 0, 1), (0.9, 2, 1), (-1, 1, 1)], 10)
     round_ = 1.2 * np.exp(2j * np.pi * np.arange(49) / 24)
     load = np.interp(np.arange(49), [0, 12, 24, 30, 36, 48], [1, 1.6, 0.4, -0.3, 0.8, 1.2])
-    circle, asks = (
-        np.column_stack([round_.real - 1.2, round_.imag, load]),
-        "a circle under a load that changes and is lost",
-    )
+    circle = np.column_stack([round_.real - 1.2, round_.imag, load])
     return [
         elastic("punch_legs", PUNCH, "full slip and a reversal and a leg across", legs, "tractrix"),
-        elastic("punch_circle", PUNCH, asks, circle),
+        elastic("punch_circle", PUNCH, "a circle under a load that changes and is lost", circle),
     ]
 
 

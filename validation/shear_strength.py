@@ -22,7 +22,7 @@ from mdr import laws
 from mdr.normal.normal_force import contact_radius
 from mdr.tools.arrays import Array
 from mdr.tools.progress import progress
-from validation.cases import DEPTH, OMEGA, POWERS, contact, loss
+from validation.cases import DEPTH, OMEGA, POWERS, contact, loss, loss_label
 from validation.figures import COLOURS, figure, panel
 from validation.half_space import growing
 from validation.measured import TOLERANCE, measured, power
@@ -107,13 +107,9 @@ def claim(effort: str) -> Claim:
     met = np.abs(mu_0 + strength / LOADS - OVER_LOAD)[[4, 6]].max()
     space = [_in_space(*one, cells=24 if quick else 48) for one in IN_SPACE[: 1 if quick else None]]
     off_space = 100 * max(abs(springs - annuli) for springs, annuli, *_ in space)
-    of_space, of_ball = (
-        laws.full_slip_of_half_space(strong("paraboloid", alpha, 0.5, u_z0=d)) / other
-        for alpha, d, other in (
-            (0.1, DEPTH, _full("paraboloid", 0.1, 0.5)),
-            (0.05, 2 * DEPTH, laws.full_slip_of_half_space(strong("paraboloid", 0.1, 0.5))),
-        )
-    )
+    shallow = laws.full_slip_of_half_space(strong("paraboloid", 0.1, 0.5))
+    deep = laws.full_slip_of_half_space(strong("paraboloid", 0.05, 0.5, u_z0=2 * DEPTH))
+    of_space, of_ball = shallow / _full("paraboloid", 0.1, 0.5), deep / shallow
     apart, n_viscous, n_space = _apart(4 if quick else 14), len(chosen), len(space)
     told_apart = 100 * float(np.mean(np.abs(apart[2]) > 0.1))
     checks = (
@@ -160,29 +156,25 @@ def _punch_checks() -> Checks:
     knobs = {"n_springs": 64, "steps_per_period": 128}
     for T in (0.0, 1.0):
         plain = contact("flat punch", 0.3, T, nu=0.4)
-        one, two = (
-            mdr.slide(case, 0.4 * plain.unit_velocity, **knobs) for case in (plain, replace(plain, tau_0=TAU_0))
-        )
+        both = plain, replace(plain, tau_0=TAU_0)
+        one, two = (mdr.slide(case, 0.4 * plain.unit_velocity, **knobs) for case in both)
         lost, with_strength = ((run.full_cof - run.cof) * run.mean_F_z for run in (one, two))
         name = f"flat punch, {loss(T)}: force that is lost less that without τ_0, over all friction"
         yield Check(name, (with_strength - lost) / (two.full_cof * two.mean_F_z), 0.0, 1e-12, "rounding")
-        v_c = mdr.critical_velocity(replace(plain, tau_0=TAU_0)) / mdr.critical_velocity(plain)
+        v_c = mdr.critical_velocity(both[1]) / mdr.critical_velocity(plain)
         yield Check(f"flat punch, {loss(T)}: v_c over that without τ_0", v_c, 1.0, 1e-14, "rounding")
 
 
 def _static_checks() -> Checks:
     for shape in ("cone", "paraboloid", "r^4"):
         case = strong(shape, 0.3, mu_0=0.2)
-        depth, E_star = (
-            case.oscillation.u_z0 * (1 + 0.3 * np.cos(2 * np.pi * np.arange(256) / 256)),
-            case.material.E_star,
-        )
-        F, A = case.indenter.force(depth, E_star), np.pi * np.asarray(case.indenter.contact_radius(depth)) ** 2
+        depth = case.oscillation.u_z0 * (1 + 0.3 * np.cos(2 * np.pi * np.arange(256) / 256))
+        F = case.indenter.force(depth, case.material.E_star)
+        A = np.pi * np.asarray(case.indenter.contact_radius(depth)) ** 2
         known = (case.mu_0 * F.min() + case.tau_0 * A.min()) / F.mean()
         why = "least depth on an instant, means of smooth periodic functions"
-        yield Check(
-            f"static COF, {shape}: (μ_0 F + τ_0 A) at the least depth over ⟨F⟩", mdr.static_cof(case), known, 1e-9, why
-        )
+        name = f"static COF, {shape}: (μ_0 F + τ_0 A) at the least depth over ⟨F⟩"
+        yield Check(name, mdr.static_cof(case), known, 1e-9, why)
         slow = mdr.slide(case, 1e-5 * case.unit_velocity, accuracy=1e-6)
         why = "its error, and what a pull adds in proportion to v_0"
         yield Check(f"a slow run beside it, {shape}", slow.cof, known, slow.cof_error + 1e-4 * known, why)
@@ -210,13 +202,11 @@ def _tail_checks(n: int | None) -> Checks:
     closed = 2 / (9 * np.pi**2) * alpha**3
     name = "the law at v̂ = 1 over (2/9π²) α³, paraboloid, α = 0.02"
     yield Check(name, laws.lost_at_the_edge(case, unit_of(case)) / closed, 1.0, 2 * alpha**2, "of second order in α")
-    fast = mdr.slide(
-        strong("paraboloid", 0.3), 10 * unit_of(strong("paraboloid", 0.3)), n_springs=256, steps_per_period=512
-    )
+    case = strong("paraboloid", 0.3)
+    fast = mdr.slide(case, 10 * unit_of(case), n_springs=256, steps_per_period=512)
     yield Check.at_least("share of stick at v̂ = 10, paraboloid", fast.stick_share, 1e-8, "springs at the edge")
-    yield Check(
-        "critical velocity of a curved elastic face", mdr.critical_velocity(strong("cone", 0.3)), np.inf, 0.0, "none"
-    )
+    v_c = mdr.critical_velocity(strong("cone", 0.3))
+    yield Check("critical velocity of a curved elastic face", v_c, np.inf, 0.0, "none")
 
 
 def _end_checks(points) -> Checks:
@@ -245,10 +235,8 @@ def _twice_as_deep(shape: str) -> float:
 def _table_checks() -> Checks:
     mu_0, strength = _of_the_table()
     for i in (4, 6):
-        off, error = (
-            mu_0 + strength / LOADS[i] - OVER_LOAD[i],
-            3 * float(np.hypot(SPREAD[i], SPREAD[list(FIXED)].max())),
-        )
+        off = mu_0 + strength / LOADS[i] - OVER_LOAD[i]
+        error = 3 * float(np.hypot(SPREAD[i], SPREAD[list(FIXED)].max()))
         yield Check(f"friction over load at {LOADS[i]:g} N, predicted less measured", off, 0.0, error, "three spreads")
     off = mu_0 + strength / LOADS[0] - OVER_LOAD[0]
     yield Check.at_least("the same at 0.01 N, where the law misses", off / SPREAD[0], 10.0, "spreads between cycles")
@@ -344,14 +332,8 @@ def _tail_figure(fig, ax, quick: bool):
         unit, end = unit_of(case), mdr.full_slip_critical_velocity(case)
         at = v if np.isinf(end) else np.geomspace(v[0], 0.98 * end / unit, v.size // 2)
         lost = np.array([1 - mdr.slide(case, one * unit, accuracy=1e-5 if quick else 1e-6).share for one in at])
-        ax.plot(
-            at[lost > 1e-6],
-            lost[lost > 1e-6],
-            "o",
-            ms=3.5,
-            color=colour,
-            label=loss(T).replace("ωτ", r"$\omega\tau$"),
-        )
+        seen = lost > 1e-6
+        ax.plot(at[seen], lost[seen], "o", ms=3.5, color=colour, label=loss_label(T))
         last = 0.45 if np.isinf(end) else 0.97 * laws.full_slip_of_half_space(case) / unit
         near = np.linspace(v[0], last, v.size)
         n = 80 if quick else 300
@@ -359,21 +341,10 @@ def _tail_figure(fig, ax, quick: bool):
         if np.isfinite(end):
             ax.axvline(end / unit, color=colour, ls=":", lw=1.2)
     tail = v[v > 0.3]
-    ax.plot(
-        tail,
-        2 / (9 * np.pi**2) * (0.3 / tail) ** 3,
-        color="0.3",
-        ls="--",
-        lw=1,
-        label=r"$\frac{2}{9\pi^2}(\alpha/\hat v)^3$",
-    )
-    panel(
-        ax,
-        r"velocity $\hat v = v_0/((2\tau_0/G^*)\,\omega a)$",
-        "share of friction that is lost",
-        log="xy",
-        legend="lower left",
-    )
+    law, label = 2 / (9 * np.pi**2) * (0.3 / tail) ** 3, r"$\frac{2}{9\pi^2}(\alpha/\hat v)^3$"
+    ax.plot(tail, law, color="0.3", ls="--", lw=1, label=label)
+    x = r"velocity $\hat v = v_0/((2\tau_0/G^*)\,\omega a)$"
+    panel(ax, x, "share of friction that is lost", log="xy", legend="lower left")
 
 
 @figure("apart", size=(6.0, 4.4))

@@ -12,6 +12,7 @@ import numpy as np
 from geometries import steel_slide as measured
 from mdr.tools.arrays import Array
 from validation.report import Check, Checks, Claim, Figure, told
+from validation.words import percent
 
 ROUGH, SMOOTH = "rough face", ("flat punch", "paraboloid")
 ERROR, ERROR_WITH = 0.2, 0.1  #: N, in the middle of the error bars without and with vibration
@@ -54,9 +55,9 @@ def claim(effort: str) -> Claim:
     fall, error = measured.vibrated[0] - measured.vibrated[1], _spread(ROUGH)[1:]
     share = np.abs(_same_share() - measured.vibrated).max()
     _, deflection = measured.found[ROUGH, "as slow", "at rest"]
-    rigid = _percent(measured.rigid[1] / measured.without[1], 2)
-    kept = _percent(measured.vibrated[1] / measured.without[1])
-    kept_at_rest = _percent(measured.vibrated[0] / measured.without[0])
+    rigid = percent(measured.rigid[1] / measured.without[1], 1)
+    kept = percent(measured.vibrated[1] / measured.without[1])
+    kept_at_rest = percent(measured.vibrated[0] / measured.without[0])
     off_rough = np.abs(off[ROUGH]).max()
     least_error = error.min()
     most_error = error.max()
@@ -73,10 +74,6 @@ def _off(face: str, limit: str, bar: str) -> Array:
     """Predicted less measured [N]."""
     forces, _ = measured.found[face, limit, bar]
     return np.asarray(forces - measured.vibrated)
-
-
-def _percent(share: float, digits: int = 0) -> str:
-    return f"{100 * share:.{digits}f} %"
 
 
 def _same_share() -> Array:

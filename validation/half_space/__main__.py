@@ -8,6 +8,8 @@ from collections.abc import Sequence
 import mdr
 from mdr.half_space import NotConverged
 
+NAMES = ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")  #: of what is found
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """0 done, 1 a step did not converge, 2 wrong input."""
@@ -21,18 +23,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"half_space: {fault}", file=sys.stderr)
         return 2
     errors = {"step": found.step_error, "grid": found.grid_error, "cycles": found.cycle_error}
-    names = ("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z")
-    answer = {**{name: getattr(found, name) for name in names}, "converged": True}
+    answer = {**{name: getattr(found, name) for name in NAMES}, "converged": True}
     return _told(args, {**answer, "errors": errors}, 0)
 
 
 def _told(args: argparse.Namespace, answer: dict[str, object], status: int) -> int:
     if args.json:
-        print(
-            json.dumps(
-                {**dict.fromkeys(("cof", "cof_y", "mean_F_x", "mean_F_y", "mean_F_z", "errors")), **answer}, indent=1
-            )
-        )
+        print(json.dumps({**dict.fromkeys((*NAMES, "errors")), **answer}, indent=1))
         return status
     for name, value in answer.items():
         for label, one in value.items() if isinstance(value, dict) else [("", value)]:

@@ -87,16 +87,13 @@ def on_cells(points: Sequence[Point], cells: int, steps: int) -> list[Row]:
 def on_annuli(points: Sequence[Point], n: int, steps: int) -> list[Row]:
     """Rows of one contact of nu = 0 without coupling at a constant depth, on n annuli, fastest first."""
     points = sorted(points, key=lambda point: -point.v)
-    along, across = of_springs(points[0].case, [point.v_0 for point in points]).T / points[0].mu_0
+    springs = of_springs(points[0].case, [point.v_0 for point in points]) / points[0].mu_0
     fine, wide, halved = (_annular(points, *size) for size in ((n, steps), (n // 2, steps), (n, steps // 2)))
-    errors = [[abs(other.cof - one.cof) for one, other in zip(fine, others, strict=True)] for others in (wide, halved)]
-    cofs = [(one.cof.real, one.cof.imag) for one in fine]
-    return [
-        Row(point, *cof, *springs, *error, one.settling)
-        for point, cof, *springs, error, one in zip(
-            points, cofs, along, across, zip(*errors, strict=False), fine, strict=True
-        )
-    ]
+    rows = []
+    for point, cofs, one, *others in zip(points, springs, fine, wide, halved, strict=True):
+        errors = (abs(other.cof - one.cof) for other in others)
+        rows.append(Row(point, one.cof.real, one.cof.imag, *cofs, *errors, one.settling))
+    return rows
 
 
 def _annular(points: Sequence[Point], n: int, steps: int) -> list[Found]:

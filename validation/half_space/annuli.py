@@ -80,12 +80,8 @@ def friction(p: Array, way: Array, cycles: int, settled: float, start: Array | N
     def solved(asked: Array, start: Array) -> Array:
         return traction(product, asked, bound, start, FINE, stiff=1 / matrix.diagonal().max())
 
-    q, last, change, settling = (
-        np.stack([bound, 0 * bound]) if start is None else start,
-        complex(np.inf),
-        np.inf,
-        np.inf,
-    )
+    q = np.stack([bound, 0 * bound]) if start is None else start
+    last, change, settling = complex(np.inf), np.inf, np.inf
     moves = np.diff(way, axis=1).T[:, :, None, None] * root[:, None]
     for _ in range(cycles):
         total = np.zeros(2)
