@@ -53,33 +53,18 @@ def run_all(names: Sequence[str], effort: str, package: str, jobs: int) -> Gener
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # of the processes: claims share the cores
     order = sorted(names, key=lambda name: LONGEST.index(name) if name in LONGEST else len(LONGEST))
-    running = _Running()
+    processes: list[Any] = []
     with ThreadPoolExecutor(jobs, initializer=_hear_no_interrupt) as threads:
-        tasks = {threads.submit(_in_a_process, name, effort, package, running): name for name in order}
+        tasks = {threads.submit(_in_a_process, name, effort, package, processes): name for name in order}
         try:
             for task in as_completed(tasks):
                 yield tasks[task], task.result()
         finally:
             threads.shutdown(wait=False, cancel_futures=True)
-            running.kill()
-
-
-class _Running:
-    """The processes that test claims; once killed, each that is added is killed at once."""
-
-    def __init__(self) -> None:
-        self.processes: list[Any] = []
-        self.killed = False
-
-    def add(self, process: Any) -> None:
-        self.processes.append(process)
-        if self.killed:
-            process.kill()
-
-    def kill(self) -> None:
-        self.killed = True
-        for process in tuple(self.processes):
-            process.kill()
+            while not all(task.done() for task in tasks):  # a thread may begin one even now
+                for process in processes:
+                    process.kill()
+                time.sleep(0.01)
 
 
 def _hear_no_interrupt() -> None:
@@ -89,14 +74,14 @@ def _hear_no_interrupt() -> None:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
-def _in_a_process(name: str, effort: str, package: str, running: _Running) -> Outcome:
-    """What a fresh process finds of a claim, or how it died."""
+def _in_a_process(name: str, effort: str, package: str, processes: list[Any]) -> Outcome:
+    """What a fresh process finds of a claim, or how it died; it is added to the processes."""
     begin, context = time.perf_counter(), _context()
     here, there = context.Pipe(duplex=False)
     process = context.Process(target=send_claim, args=(there, name, effort, package), name=name)
     process.start()
     there.close()  # the process then holds the only one: its death is the end of the pipe
-    running.add(process)
+    processes.append(process)
     try:
         outcome: Outcome = here.recv()
     except (EOFError, OSError):
