@@ -139,8 +139,8 @@ _EQUATIONS = (
 )
 
 
-def _full(shape: str, alpha: float, T: float, mu_0: float = 0.0, u_z0: float = DEPTH) -> float:
-    return mdr.full_slip_critical_velocity(strong(shape, alpha, T, mu_0, u_z0))
+def _full(shape: str, alpha: float, T: float, u_z0: float = DEPTH) -> float:
+    return mdr.full_slip_critical_velocity(strong(shape, alpha, T, u_z0=u_z0))
 
 
 def _of_the_table() -> Array:

@@ -28,9 +28,9 @@ def span(values: Iterable[float], digits: int = 3) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def ranged(values: Iterable[float], digits: int = 3) -> str:
+def ranged(values: Iterable[float]) -> str:
     """The same after the name of a quantity: "from 1 to 100", or "= 100"."""
-    text = span(values, digits)
+    text = span(values)
     return f"from {text}" if " to " in text else f"= {text}"
 
 
@@ -40,7 +40,7 @@ def counted(n: int, one: str, many: str = "") -> str:
     return f"{_COUNTS[n] if n < len(_COUNTS) else n} {one if n == 1 else plural}"
 
 
-def listed(values: Iterable[object], last: str = "and") -> str:
+def listed(values: Iterable[object]) -> str:
     """An enumeration: "1", "1 and 2", "1, 2 and 3"."""
     *others, end = [f"{value:g}" if isinstance(value, int | float) else str(value) for value in values]
-    return f"{', '.join(others)} {last} {end}" if others else end
+    return f"{', '.join(others)} and {end}" if others else end
