@@ -25,9 +25,9 @@ limit = (u_z0 - h) / np.hypot(1, T)  # amplitude at which the middle lets go
 punch_depth = float(cup.force(u_z0, 1.0)) / (2 * cup.a)  # of a flat punch under the same force
 
 
-def foot(du_z, indenter=cup, depth=u_z0, pull=arm):
+def foot(du_z, indenter=cup, depth=u_z0):
     """A foot pressed to a mean depth and vibrated by du_z."""
-    return mdr.SlidingContact(indenter, rubber, mu_0, mdr.NormalOscillation(depth, du_z, omega), pull)
+    return mdr.SlidingContact(indenter, rubber, mu_0, mdr.NormalOscillation(depth, du_z, omega), arm)
 
 
 amplitudes = limit * np.linspace(0.1, 1, 10)

@@ -91,7 +91,7 @@ def host(dt, look_at=0.0, until=end):
     return Run(times, np.array(found), float(element.dissipated(state)), newton=looked, unbalanced=off)
 
 
-def rejecting(rtol, until=end):
+def rejecting(rtol):
     """The run of solve_ivp with a contact that each call of its right side advances."""
     x, state = begin()
 
@@ -100,7 +100,7 @@ def rejecting(rtol, until=end):
         F, state = element.step(state, 0.0, (y[0], 0.0, y[1]))
         return np.concatenate([y[2:], (pull(t) - F[::2]) / m])
 
-    found = solve_ivp(rate, (0, until), [*x, 0.0, 0.0], rtol=rtol, atol=rtol * depth)
+    found = solve_ivp(rate, (0, end), [*x, 0.0, 0.0], rtol=rtol, atol=rtol * depth)
     return Run(found.t, found.y[:2].T, float(element.dissipated(state)), calls=found.nfev)
 
 
