@@ -13,6 +13,7 @@ import os
 import sys
 import time
 import tracemalloc
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -51,10 +52,14 @@ def timed(functions: dict[str, Callable[[], Any]], repeats: int = REPEATS) -> di
     return {name: np.array(values) for name, values in seconds.items()}
 
 
+def summed_up(what: str, ratios: np.ndarray) -> Row:
+    """A row: the median of some ratios, with the least and the greatest."""
+    return {"what": what, "ratio": float(np.median(ratios)), "least": float(ratios.min()), "most": float(ratios.max())}
+
+
 def ratio(name: str, slow: np.ndarray, fast: np.ndarray, scale: float = 1.0) -> Row:
-    """A row: how many times faster the second is, pair by pair; scale is work of the second over that of the first."""
-    pairs = scale * slow / fast
-    return {"what": name, "ratio": float(np.median(pairs)), "least": float(pairs.min()), "most": float(pairs.max())}
+    """How many times faster the second is, pair by pair; scale is work of the second over that of the first."""
+    return summed_up(name, scale * slow / fast)
 
 
 def sliding(case: SlidingContact, **knobs: Any) -> Callable[[], mdr.SlidingRun]:
@@ -132,30 +137,18 @@ def tables() -> dict[str, list[Row]]:
 
 def against(there: Path, n_random: int, n_study: int) -> dict[str, list[Row]]:
     """How many times faster this checkout answers than another, in processor time, both asked in turn."""
-    here = Path(__file__).parents[2]
-
-    def say(what: str) -> None:
-        print(what, file=sys.stderr)
-
+    here, found = Path(__file__).parents[2], defaultdict[str, list[Row]](list)
     tasks = ("default run", "curve of 20", "measurement", "verdict", "fit")
     slow = (f"study of {n_study}",) if n_study else ()
     numbers = [str(i) for i in range(n_random)]
-    found: dict[str, list[Row]] = {"medians": []}
     standing = list(STANDING)
     turns = (tasks[:1], standing, 9), (tasks[1:], standing, 3), (slow, standing, 1), (tasks[:4], numbers, 3)
     for asked, names, repeats in turns:
-        for task, name, ours, theirs in alternately(here, there, asked, names, repeats, say):
+        for task, name, ours, theirs in alternately(here, there, asked, names, repeats):
             kind = f"{task}, random cases" if name.isdigit() else task
-            row = ratio(f"{name}: {1e3 * float(np.median(ours)):.3g} ms", theirs, ours)
-            found.setdefault(kind, []).append(row)
-    for kind, rows in found.items():
-        if kind != "medians":
-            ratios = np.array([row["ratio"] for row in rows])
-            spread = {"least": float(ratios.min()), "most": float(ratios.max())}
-            found["medians"].append(
-                {"what": f"{kind}, {ratios.size} cases", "ratio": float(np.median(ratios)), **spread}
-            )
-    return found
+            found[kind].append(ratio(f"{name}: {1e3 * float(np.median(ours)):.3g} ms", theirs, ours))
+    ratios = {f"{kind}, {len(rows)} cases": np.array([one["ratio"] for one in rows]) for kind, rows in found.items()}
+    return {"medians": [summed_up(what, some) for what, some in ratios.items()], **found}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

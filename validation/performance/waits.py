@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -173,13 +173,13 @@ class Checkout:
 
 
 def alternately(
-    here: Path, there: Path, tasks: Sequence[str], names: Sequence[str], repeats: int, say: Callable[[str], None]
+    here: Path, there: Path, tasks: Sequence[str], names: Sequence[str], repeats: int
 ) -> Iterator[tuple[str, str, np.ndarray, np.ndarray]]:
     """Task, case, and seconds (repeats,) here and there, taken in turn after one of each that does not count."""
     with Checkout(here) as one, Checkout(there) as other:
         for task in tasks:
             for name in names:
-                say(f"{task}: {name}")
+                print(f"{task}: {name}", file=sys.stderr)
                 if repeats > 1 or name == names[0]:  # the first one loads compiled code
                     one.seconds(task, name), other.seconds(task, name)
                 pairs = [(one.seconds(task, name), other.seconds(task, name)) for _ in range(repeats)]
