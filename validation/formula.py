@@ -6,7 +6,6 @@ Letters, digits, operators, Greek letters, functions (\sin, \max), \frac, \sqrt,
 
 import html
 import re
-from collections.abc import Iterator
 
 from validation.typeset import GREEK
 
@@ -22,38 +21,32 @@ _OVER = {"dot": "˙", "ddot": "¨", "hat": "^"}
 
 def mathml(tex: str, block: bool = True) -> str:
     """One equation as a <math> element; ValueError for what is not understood."""
-    tokens = _Tokens(tex)
-    body = _row(tokens, end="")
+    tokens = [*(found[1] for found in _TOKEN.finditer(tex.strip())), ""][::-1]  # the next one is the last
+    try:
+        body = _row(tokens, end="")
+    except IndexError:  # an argument or a fence was looked for past the end
+        raise ValueError(f"{tex}: its end is missing") from None
+    except ValueError as fault:
+        raise ValueError(f"{tex}: {fault}") from None
     return f'<math display="{"block" if block else "inline"}" aria-label="{html.escape(tex)}">{body}</math>'
 
 
-class _Tokens:
-    def __init__(self, tex: str) -> None:
-        self.tex = tex
-        self.left: Iterator[str] = (found[1] for found in _TOKEN.finditer(tex.strip()))
-        self.next = next(self.left, "")
-
-    def pop(self) -> str:
-        now, self.next = self.next, next(self.left, "")
-        return now
-
-
-def _row(tokens: _Tokens, end: str) -> str:
+def _row(tokens: list[str], end: str) -> str:
     """Everything up to a token, which is taken too."""
     parts = []
-    while tokens.next != end:
-        if not tokens.next:
-            raise ValueError(f"{tokens.tex}: {end} is missing")
+    while tokens[-1] != end:
+        if not tokens[-1]:
+            raise ValueError(f"{end} is missing")
         parts.append(_scripted(tokens))
     tokens.pop()
     return f"<mrow>{''.join(parts)}</mrow>"
 
 
-def _scripted(tokens: _Tokens) -> str:
+def _scripted(tokens: list[str]) -> str:
     """One thing with its index and power."""
-    wide = tokens.next in (r"\sum", r"\max", r"\min")
+    wide = tokens[-1] in (r"\sum", r"\max", r"\min")
     base, marks = _one(tokens), {}
-    while tokens.next in ("_", "^"):
+    while tokens[-1] in ("_", "^"):
         mark = tokens.pop()
         marks[mark] = _one(tokens)
     kind = {"_": "sub", "^": "sup", "_^": "subsup"}.get("".join(sorted(marks, key="_^".index)), "")
@@ -62,7 +55,7 @@ def _scripted(tokens: _Tokens) -> str:
     return f"<m{kind}>{base}{''.join(marks[one] for one in '_^' if one in marks)}</m{kind}>" if kind else base
 
 
-def _one(tokens: _Tokens) -> str:
+def _one(tokens: list[str]) -> str:
     """A letter, number, operator, group, fraction, root or fence."""
     token = tokens.pop()
     name = token[1:]
@@ -82,10 +75,10 @@ def _one(tokens: _Tokens) -> str:
         return f'<mspace width="{width}"></mspace>'
     if token.startswith("\\") and name in _OVER:
         return f"<mover>{_one(tokens)}<mo>{_OVER[name]}</mo></mover>"
-    return _symbol(token, tokens.tex)
+    return _symbol(token)
 
 
-def _symbol(token: str, tex: str) -> str:
+def _symbol(token: str) -> str:
     name = token[1:]
     if token.startswith("\\"):
         if name in ("max", "min"):
@@ -96,7 +89,7 @@ def _symbol(token: str, tex: str) -> str:
             return f"<mi>{_LETTERS[name]}</mi>"
         if name in _OPERATORS:
             return f"<mo>{_OPERATORS[name]}</mo>"
-        raise ValueError(f"{tex}: {token} is not understood")
+        raise ValueError(f"{token} is not understood")
     if token[:1].isdigit():
         return f"<mn>{token}</mn>"
     if token.isalpha():

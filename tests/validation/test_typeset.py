@@ -76,7 +76,7 @@ def test_formulas(tex, expected):
     assert expected in mathml(tex)
 
 
-@pytest.mark.parametrize("tex", [r"\nonsense", "{a", r"\left( a"])
+@pytest.mark.parametrize("tex", [r"\nonsense", "{a", r"\left( a", r"\left( a \right", r"\frac{a}", "x^"])
 def test_a_formula_that_is_not_understood_is_refused(tex):
     with pytest.raises(ValueError, match=r"not understood|missing"):
         mathml(tex)
