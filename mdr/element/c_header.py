@@ -28,15 +28,13 @@ OF_DASHPOT = {
     "T_VEL_START": ("CONTACT_T * start.vel + ", ""),
     "T_O_VEL": (" + CONTACT_T * o.vel", ""),
     "T_Z": (" + CONTACT_T * z_1", ""),
-    "PHI_0": ("time->phi[0]", "NULL"),
-    "PHI_1": ("time->phi[1]", "NULL"),
     "G_VECTOR": ("contact_plus(o->e, CONTACT_T, p)", "o->e"),
     "VEL": ("contact_max(size - contact_max(R, 0.0), 0.0) / CONTACT_T", "contact_max(ahead, 0.0)"),
     "OR_OUT": (" || size > tol", ""),
     "E_AFTER": (
-        "time->t < CONTACT_T ? contact_yielded(o->e, first, *f, &slip, time)"
+        "time->t < CONTACT_T ? contact_yielded(o->e, first, of->f, &slip, time)"
         " : contact_plus(contact_times(R + CONTACT_T * slip.vel, slip.n), -CONTACT_T, p)",
-        "*f",
+        "of->f",
     ),
     "DECAY": ("time.decay", "0.0"),
     "STIFF": ("(1.0 + CONTACT_T / time->t)", "1.0"),
