@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -74,9 +74,9 @@ class ContactElement(Record):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        at = springs_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
-        object.__setattr__(self, "_contact", at)
-        object.__setattr__(self, "_of_springs", mark_of(at))
+        instance("indenter", self.indenter, Indenter)
+        instance("material", self.material, Material)
+        _ = self._mark  # its springs refuse what no contact can be
 
     @property
     def n_state(self) -> int:
@@ -240,18 +240,17 @@ class ContactElement(Record):
     def __getstate__(self) -> dict[str, Any]:  # compiled code has an address in one process alone
         return {name: value for name, value in vars(self).items() if name != "_c_function"}
 
-    @property
+    @cached_property
     def _row(self) -> SpringRow:
-        return cast(SpringRow, vars(self)["_contact"])
+        return springs_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
 
-    @property
+    @cached_property
     def _mark(self) -> float:
-        return cast(float, vars(self)["_of_springs"])
+        return mark_of(self._row)
 
     @property
     def _rows(self) -> int:
-        arms = self._row.law.arms
-        return 1 if arms is None else 1 + arms.rho.size
+        return ratios_of(self._row).size
 
     @property
     def _is_viscous(self) -> bool:
@@ -283,12 +282,14 @@ class ContactElement(Record):
 
 
 def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> SpringRow:
-    """The springs for depths up to `deepest` [m], cut where contact is lost at `least`; refuses what no case takes."""
+    """The springs for depths from `least` to `deepest` [m]; refuses what no case takes.
+
+    They are cut where contact is lost at the least depth, which a dashpot leaves at none.
+    """
     tell_if_missing()
-    instance("indenter", indenter, Indenter)
-    instance("material", material, Material)
-    mu_0 = positive("mu_0", mu_0, "coefficient of friction")
     refuse_other_materials(material, 1.0)
+    if material.tau > 0 or not SAME * deepest < least < (1 - SAME) * deepest:
+        least = 0.0
     if not material.E_star > 0:
         raise ValueError("material: E_inf = 0, so that a mean load sinks in without end: give it a long-time modulus")
     if indenter.least_depth > least:
@@ -315,9 +316,21 @@ def mark_of(row: SpringRow) -> float:
     return float(int(sha256(np.stack([np.rint(2**24 * parts), powers]).astype("<i8").tobytes()).hexdigest()[:12], 16))
 
 
+def ratios_of(row: SpringRow) -> Array:
+    """Moduli of a spring and its arms over the long-time one, (1 + J,)."""
+    return np.ones(1) if row.law.arms is None else np.concatenate([[1.0], row.law.arms.rho])
+
+
+def relaxed(row: SpringRow, depth: float) -> Array:
+    """Compressions (1 + J, n) of springs and arms that rest at a scaled depth."""
+    s = np.zeros((ratios_of(row).size, row.gap.size))
+    s[0] = np.maximum(depth - row.gap, 0)
+    return s
+
+
 def stored(row: SpringRow, springs: Array) -> Array:
     """Elastic energy [J] of springs (..., 3 (1 + J) n)."""
-    ratios = np.ones(1) if row.law.arms is None else np.concatenate([[1.0], row.law.arms.rho])
+    ratios = ratios_of(row)
     squares = (springs.reshape(*springs.shape[:-1], 3, ratios.size, row.gap.size) ** 2 @ row.w) @ ratios
     units = np.array([row.force_z * row.length_z, *2 * [row.force_x * row.length_x]])
     return np.asarray(0.5 * squares @ units)

@@ -8,20 +8,19 @@ all velocities.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.case.contact import SlidingContact
+from mdr.case.contact import SlidingContact, require_case
 from mdr.case.coulomb import of_coulomb
 from mdr.case.spectrum import Spectrum
-from mdr.element.contact_element import springs_of
-from mdr.element.kernels import SpringRow, follow
+from mdr.element.contact_element import relaxed, springs_of
+from mdr.element.kernels import follow
 from mdr.normal.springs import MIN_SPRINGS
-from mdr.tools.arrays import EXACT, SAME, Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, instance, positive_array
 from mdr.tools.companions import Companion, bound
 from mdr.tools.csv_table import Tabled, csv_text
@@ -164,15 +163,15 @@ def random_cof(
         raise ValueError(f"v_0 must be a list of velocities, got an array of shape {velocities.shape}")
     n, seed = count("n_realisations", n_realisations, LEAST_REALISATIONS), count("seed", seed, 0)
     springs = SPRINGS if n_springs is None else count("n_springs", n_springs, 2 * MIN_SPRINGS)
-    drawn = _drawn(case, spectrum, float(velocities.min()))
+    n_t, dt = _samples(case, spectrum, float(velocities.min()))
     found, coarse = np.empty((2, n, velocities.size, 2))
     few: dict[int, Array] = {}  # of those that touch, with half of the springs
     for k in progress(range(n), "random_cof", "realisations"):
-        u_z = depth + spectrum.realisation(drawn.n_t, drawn.dt, seed, k)
-        found[k] = _impulses(case, u_z, drawn.dt, velocities, springs)
-        coarse[k] = _impulses(case, u_z[::2], 2 * drawn.dt, velocities, springs)
+        u_z = depth + spectrum.realisation(n_t, dt, seed, k)
+        found[k] = _impulses(case, u_z, dt, velocities, springs)
+        coarse[k] = _impulses(case, u_z[::2], 2 * dt, velocities, springs)
         if found[k, 0, 1] > 0 and len(few) < LEAST_REALISATIONS:
-            few[k] = _impulses(case, u_z, drawn.dt, velocities, springs // 2)
+            few[k] = _impulses(case, u_z, dt, velocities, springs // 2)
     if not found[..., 1].any():
         raise ValueError("the indenter never touches in these histories: raise the mean depth or the rms")
     by_step = (found - coarse) / 3
@@ -187,8 +186,8 @@ def random_cof(
         cof_error=np.array([bound(rounding, *map(Companion, at)) for at in off.T.tolist()]),
         realisations=_cof(found[:, None], axis=1),
         mu_0=case.mu_0,
-        duration=drawn.n_t * drawn.dt,
-        n_t=drawn.n_t,
+        duration=n_t * dt,
+        n_t=n_t,
         n_springs=springs,
         seed=seed,
     )
@@ -203,9 +202,7 @@ def _cof(impulses: Array, axis: int = 0) -> Array:
 
 def _mean_depth(case: SlidingContact) -> float:
     """Mean depth [m] of a case that may vibrate at random."""
-    if not isinstance(case, SlidingContact):
-        raise TypeError(f"case must be a SlidingContact, got {case!r}")
-    if not case.pull.is_rigid or case.shake is not None:
+    if not require_case(case).pull.is_rigid or case.shake is not None:
         raise ValueError(
             f"random vibration is that of the depth under a rigid pull, got pull = {case.pull!r}, shake = "
             f"{case.shake!r}: drop them, or follow a history of your own with slide_record or ContactElement"
@@ -218,13 +215,11 @@ def _mean_depth(case: SlidingContact) -> float:
     return case.cycle.u_z0
 
 
-class _Drawn(NamedTuple):
-    n_t: int  #: samples of a history, an even number
-    dt: float  #: between them [s], of few digits, so that all steps are equal
+def _samples(case: SlidingContact, spectrum: Spectrum, slowest: float) -> tuple[int, float]:
+    """Samples of a history, an even number, and the time between them [s], of few digits, so that all steps are equal.
 
-
-def _drawn(case: SlidingContact, spectrum: Spectrum, slowest: float) -> _Drawn:
-    """Long enough for the slowest pull, close enough for the shortest period."""
+    Long enough for the slowest pull, close enough for the shortest period.
+    """
     dt = float(np.float32(1 / (SAMPLES * spectrum.f[-1])))
     pull, relaxation = _per_rate(case) * spectrum.rms / slowest, _relaxation(case)
     memory = max(pull, relaxation)
@@ -239,7 +234,7 @@ def _drawn(case: SlidingContact, spectrum: Spectrum, slowest: float) -> _Drawn:
             f"a history would have {n_t:.2g} samples, {SAMPLES} of the period 1/f of {spectrum.f[-1]:.6g} Hz, at most "
             f"{MOST_SAMPLES}: raise v_0 = {slowest:.6g} m/s, or end the spectrum earlier"
         )
-    return _Drawn(int(n_t), dt)
+    return int(n_t), dt
 
 
 def _per_rate(case: SlidingContact) -> float:
@@ -253,24 +248,21 @@ def _relaxation(case: SlidingContact) -> float:
 
 
 def _impulses(case: SlidingContact, u_z: Array, dt: float, velocities: Array, n_springs: int) -> Array:
-    """Impulses of F_x and F_z [N s] over the period of a depth (n_t,) at each velocity, (n_v, 2)."""
+    """Impulses of F_x and F_z [N s] over the period of a depth (n_t,) at each velocity, (n_v, 2).
+
+    Each begins in full slip, and is led through as much of the past as friction remembers.
+    """
+    found = np.zeros((velocities.size, 2))
     least, deepest = float(u_z.min()), float(u_z.max())
     if deepest <= 0:
-        return np.zeros((velocities.size, 2))
-    kept = least if SAME * deepest < least < (1 - SAME) * deepest and case.material.tau == 0 else 0.0
-    row = springs_of(case.indenter, case.material, case.mu_0, deepest, kept, n_springs)
+        return found
+    row = springs_of(case.indenter, case.material, case.mu_0, deepest, least, n_springs)
     past = _per_rate(case) * (deepest - least) / velocities + RELAXED * _relaxation(case)
-    leads = np.ceil(past / dt).astype(int)
-    return np.array(list(_followed(row, u_z / row.length_z, dt, velocities / row.length_x, leads)))
-
-
-def _followed(row: SpringRow, depth: Array, dt: float, rates: Array, leads: Array) -> Iterator[Array]:
-    """Impulses of a scaled depth for each rate of the scaled way, after its lead; full slip at first."""
-    n_parts = 1 if row.law.arms is None else 1 + row.law.arms.rho.size
-    for rate, lead in zip(rates, leads, strict=True):
-        t = dt * np.arange(-lead, depth.size + 1)
-        z, x = depth[np.arange(-lead, depth.size + 1) % depth.size], rate * t
-        s, out = np.zeros((n_parts, row.gap.size)), np.zeros((t.size, 6))
-        s[0] = np.maximum(z[0] - row.gap, 0)
-        follow(s, s.copy(), t, x, z, np.empty(0), 1, row, out, 0, t.size - 1)
-        yield out[lead + 1 :, [3, 5]].sum(axis=0) * np.array([row.force_x, row.force_z])
+    depth, rates = u_z / row.length_z, velocities / row.length_x
+    for k, lead in enumerate(np.ceil(past / dt).astype(int)):
+        at = np.arange(-lead, depth.size + 1)
+        t, z = dt * at, depth[at % depth.size]
+        s, out = relaxed(row, z[0]), np.zeros((t.size, 6))
+        follow(s, s.copy(), t, rates[k] * t, z, np.empty(0), 1, row, out, 0, t.size - 1)
+        found[k] = out[lead + 1 :, [3, 5]].sum(axis=0) * np.array([row.force_x, row.force_z])
+    return found

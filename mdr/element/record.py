@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.element.contact_element import springs_of, stored
+from mdr.element.contact_element import relaxed, springs_of, stored
 from mdr.element.kernels import SpringRow, follow
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
 from mdr.normal.load_control import static_depths
 from mdr.normal.springs import MIN_SPRINGS
-from mdr.tools.arrays import EXACT, SAME, Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, finite_array, instance, instants, positive
 from mdr.tools.companions import Companion, bound
 from mdr.tools.csv_table import Tabled, csv_text
@@ -212,7 +212,6 @@ def slide_record(
         raise ValueError(
             f"{'u_z' if F_z is None else 'F_z'}: the indenter never touches, the greatest depth is {deepest:.6g} m"
         )
-    least = least if SAME * deepest < least < (1 - SAME) * deepest and material.tau == 0 else 0.0
     motion = _Motion(t, x, y if np.ptp(y) > 0 else None, depth, load)
     exact = load is None and motion.y is None and not (material.tau > 0 or material.contact_arms)
     runs = [(n, 1), (n // 2, 1)] if exact else [(n, 1), (n // 2, 1), (n, 2)]
@@ -278,12 +277,12 @@ class _Followed(NamedTuple):
 
 def _followed(motion: _Motion, row: SpringRow, parts: int, ticker: Ticker) -> _Followed:
     """The record followed by a row of springs, each interval in so many parts."""
-    t, n, n_parts = motion.t, row.gap.size, 1 if row.law.arms is None else 1 + row.law.arms.rho.size
+    t, n = motion.t, row.gap.size
     x = (motion.x if motion.y is None else motion.x + 1j * motion.y) / row.length_x
     depth = motion.depth / row.length_z
     load = np.empty(0) if motion.load is None else motion.load / row.force_z
-    s, e = np.zeros((n_parts, n)), np.zeros((n_parts, n), x.dtype)
-    s[0] = np.maximum(depth[0] - row.gap, 0)
+    s = relaxed(row, depth[0])
+    e = np.zeros(s.shape, x.dtype)
     out = np.zeros((t.size, 6))
     out[0, 2] = row.w @ s[0]
     first = _stored(row, s, e)
