@@ -6,17 +6,15 @@ import pickle
 
 import numpy as np
 import pytest
-from elements import ARMS, DOUBLES, ELASTIC, at
+from elements import ARMS, DOUBLES, ELASTIC, at, element
 from numpy.testing import assert_array_equal
-
-import mdr
 
 KIND = ctypes.CFUNCTYPE(ctypes.c_int, DOUBLES, DOUBLES, ctypes.c_double, DOUBLES, DOUBLES, DOUBLES)
 
 
 @pytest.mark.parametrize("material", [ELASTIC, ARMS], ids=["elastic", "arms"])  # each is compiled, in some seconds
 def test_the_function_at_its_address_makes_the_steps_of_the_element(material):
-    contact = mdr.ContactElement(mdr.Paraboloid(R=5e-3), material, 0.5, u_z_max=40e-6, n_springs=24)
+    contact = element(material, n_springs=24)
     rng, step = np.random.default_rng(5), KIND(contact.address)
     state = own = contact.at_rest((0, 0, 20e-6))
     for k in range(12):

@@ -5,34 +5,26 @@ import subprocess
 
 import numpy as np
 import pytest
-from elements import DOUBLES, at
+from elements import ARMS, BALL, DEPTH, DOUBLES, KELVIN, MU_0, REACH, at, element, in_c, walk
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
 from mdr.element.c_header import header
 from mdr.element.fmu import NoCompiler, compiler
 
-DEPTH, MU_0 = 40e-6, 0.5
-MATERIALS = {"elastic": mdr.Elastic(E=3e6, nu=0.4), "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.4, tau=1e-3)}
-every_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS.keys())
-SHAPES = {
-    "ball": mdr.Paraboloid(R=5e-3),
-    "punch": mdr.FlatPunch(a=1e-3),
-    "cone": mdr.TruncatedCone(theta=0.02, b=0.5e-3),
-}
-REACH = MU_0 * MATERIALS["elastic"].mindlin_ratio * DEPTH
+SHAPES = {"ball": BALL, "punch": mdr.FlatPunch(a=1e-3), "cone": mdr.TruncatedCone(theta=0.02, b=0.5e-3)}
 WALL = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
-#: the steps of standard input, "dt x y z" each, and what they answer
+#: the steps of standard input, "dt x y z" each, with tangents
 PROGRAM = """
 #include <stdio.h>
 #include "contact.h"
 int main(void) {
     double state[CONTACT_N_STATE], u[3] = {0.0, 0.0, 0.5 * CONTACT_U_Z_MAX}, dt, F[3], K[9];
-    contact_at_rest(state, u);
-    while (scanf("%lf %lf %lf %lf", &dt, u, u + 1, u + 2) == 4) {
-        int status = contact_step(state, state, dt, u, F, K);
-        printf("%d %.17g %.17g %.17g %.17g\\n", status, F[0], F[1], F[2], state[3] - contact_stored(state));
+    int status = contact_at_rest(state, u);
+    while (status == 1 && scanf("%lf %lf %lf %lf", &dt, u, u + 1, u + 2) == 4) {
+        status = contact_step(state, state, dt, u, F, K);
     }
+    printf("%d", status);
     return 0;
 }
 """
@@ -54,10 +46,6 @@ def cc():
         pytest.skip(str(fault))
 
 
-def element(material, shape=SHAPES["ball"], n_springs=64):
-    return mdr.ContactElement(shape, material, MU_0, u_z_max=DEPTH, n_springs=n_springs)
-
-
 def built(cc, folder, contact, source, *options, change=lambda text: text):
     """A program or library of this source around the header of a contact."""
     (folder / "contact.h").write_text(change(header(contact, "contact", "of a test */ here")), encoding="utf-8")
@@ -66,9 +54,11 @@ def built(cc, folder, contact, source, *options, change=lambda text: text):
     done = subprocess.run(
         [*cc, "-O2", *options, "made.c", "-o", made, "-lm"], cwd=folder, capture_output=True, text=True
     )
+    if "cc1plus" in done.stderr:
+        pytest.skip("this compiler has no C++")
     if any(one.startswith("-fsanitize") for one in options) and "cannot find" in done.stderr:
         pytest.skip("this compiler comes without sanitizers")
-    assert done.returncode == 0, done.stderr
+    assert (done.returncode, done.stderr) == (0, "")
     return made
 
 
@@ -80,19 +70,6 @@ def library(cc, folder, contact, **given):
     return made
 
 
-def walk(seed, n=60):
-    """Step of time and positions: turned or reversed ways, tapping or steady, with pauses, small and large steps."""
-    rng = np.random.default_rng(seed)
-    size = 0.2 * 10.0 ** rng.uniform(-2, 1.2, n) * (rng.random(n) < 0.9)
-    angle = np.cumsum(rng.normal(0, 0.7, n)) if seed % 4 else np.pi * (rng.random(n) < 0.5)
-    depth = 0.4 + 0.6 * np.sin(0.5 * np.arange(n) + np.cumsum(rng.normal(0, 0.3, n)))
-    if seed % 4 == 1:
-        depth[:] = rng.uniform(0.1, 1)
-    us = np.column_stack([*np.cumsum(REACH * size * np.stack([np.cos(angle), np.sin(angle)]), axis=1), DEPTH * depth])
-    us[20:24] = us[20]  # a pause in all
-    return 10.0 ** rng.uniform(-5, -1), us
-
-
 def far_off(F, G, contact):
     """The greatest difference of forces on a path, over mu_0 F_N, or that of a dashpot, whose rounding stays."""
     return np.abs(F - G).max() / max(MU_0 * contact.indenter.force(DEPTH, contact.material.E_star), np.abs(G).max())
@@ -101,11 +78,11 @@ def far_off(F, G, contact):
 # --- what it answers ---
 
 
-@pytest.mark.parametrize("shape", [SHAPES["ball"], SHAPES["punch"]], ids=["ball", "punch"])
-@every_material
+@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+@in_c
 def test_steps_are_those_of_the_library(cc, tmp_path, material, shape):
     """Twenty paths of 60 steps, each on its own state; the tangent is a difference of such forces."""
-    contact = element(material, shape)
+    contact = element(material, shape, n_springs=64)
     made, worst, of_tangent = library(cc, tmp_path, contact), 0.0, 0.0
     for seed in range(20):
         dt, us = walk(seed)
@@ -127,25 +104,18 @@ def test_steps_are_those_of_the_library(cc, tmp_path, material, shape):
     assert of_tangent < 1e-7
 
 
-@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES.keys())
-@every_material
-def test_programs_meet_the_library_without_a_fault_of_memory(cc, tmp_path, material, shape):
-    """Under the sanitizers of memory and of undefined behaviour, with tangents."""
+@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+@in_c
+def test_steps_have_no_fault_of_memory(cc, tmp_path, material, shape):
+    """Under the sanitizers of memory and of undefined behaviour."""
     contact, (dt, us) = element(material, shape, n_springs=20), walk(6)
     program = built(cc, tmp_path, contact, PROGRAM, "-fsanitize=address,undefined", "-fno-sanitize-recover=all", *WALL)
     steps = "\n".join(" ".join(map(repr, [dt, *map(float, u)])) for u in us)
     done = subprocess.run([program], input=steps, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    state, found, forces = contact.at_rest((0, 0, 0.5 * DEPTH)), np.loadtxt(done.stdout.splitlines()), []
-    for u, line in zip(us, found, strict=True):
-        G, state = contact.step(state, dt, u)
-        forces.append(G)
-        assert line[4] == pytest.approx(float(contact.dissipated(state)), rel=1e-10, abs=1e-25)
-    assert np.all(found[:, 0] == 1)
-    assert far_off(found[:, 1:4], np.array(forces), contact) < 1e-14
+    assert (done.returncode, done.stdout, done.stderr) == (0, "1", "")
 
 
-@every_material
+@in_c
 def test_a_step_is_pure_and_may_write_over_its_state(cc, tmp_path, material):
     contact, (dt, us) = element(material), walk(3, 25)
     made, F, G = library(cc, tmp_path, contact), np.empty(3), np.empty(3)
@@ -159,17 +129,9 @@ def test_a_step_is_pure_and_may_write_over_its_state(cc, tmp_path, material):
         assert_array_equal(F, G)
 
 
-@every_material
-def test_it_is_c_and_c_plus_plus_without_a_warning(cc, tmp_path, material):
-    for words in (["-x", "c", *WALL], ["-x", "c++", *WALL[1:]]):
-        (tmp_path / "contact.h").write_text(header(element(material), "contact", ""), encoding="utf-8")
-        (tmp_path / "made.c").write_text(LIBRARY, encoding="utf-8")
-        done = subprocess.run(
-            [*cc, *words, "-O2", "-c", "made.c", "-o", "made.o"], cwd=tmp_path, capture_output=True, text=True
-        )
-        if words[1] == "c++" and "cc1plus" in done.stderr:
-            pytest.skip("this compiler has no C++")
-        assert (done.returncode, done.stderr) == (0, "")
+@in_c
+def test_it_is_c_plus_plus_without_a_warning(cc, tmp_path, material):
+    built(cc, tmp_path, element(material), LIBRARY, "-x", "c++", "-fPIC", "-shared", *WALL[1:])
 
 
 # --- what it refuses, and doubts ---
@@ -188,7 +150,7 @@ HOSTILE = {
 }
 
 
-@every_material
+@in_c
 def test_what_it_refuses_it_leaves_alone(cc, tmp_path, material):
     contact = element(material)
     made, good = library(cc, tmp_path, contact), {"dt": 1e-3, "u": [1e-6, 0.0, 20e-6]}
@@ -209,7 +171,7 @@ def test_what_it_refuses_it_leaves_alone(cc, tmp_path, material):
 
 def test_it_says_where_it_left_a_search(cc, tmp_path):
     """With one look instead of 100 a step of events is unreliable, and one of plain slip is not."""
-    contact = element(MATERIALS["Kelvin"])
+    contact = element(KELVIN)
     made = library(cc, tmp_path, contact, change=lambda text: text.replace("CONTACT_MOST 100", "CONTACT_MOST 1"))
     state, F = contact.at_rest((0, 0, 20e-6)), np.empty(3)
     found = [made.step(at(state), at(state), 1e-3, at(np.array(u)), at(F), None)
@@ -220,7 +182,7 @@ def test_it_says_where_it_left_a_search(cc, tmp_path):
 # --- its text ---
 
 
-@every_material
+@in_c
 def test_a_header_has_500_lines_at_most_and_its_own_names(material):
     text = header(element(material), "left_foot", "one line\nanother */ line")
     assert len(text.splitlines()) <= 500
@@ -232,6 +194,5 @@ def test_a_header_has_500_lines_at_most_and_its_own_names(material):
 
 
 def test_arms_are_refused_in_words():
-    arms = mdr.Prony(E_inf=3e6, arms=((2e6, 1e-3),), nu=0.5)
     with pytest.raises(ValueError, match="elastic or a Kelvin material can be exported"):
-        header(element(arms), "contact", "")
+        header(element(ARMS), "contact", "")

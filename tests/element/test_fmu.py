@@ -4,6 +4,7 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
+from elements import DEPTH, ELASTIC, REACH, element
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -12,10 +13,11 @@ from mdr.element.fmu import FLAGS, NoCompiler, compiler, fmu, library, sources
 fmpy = pytest.importorskip("fmpy", reason="fmpy, of the extra export, drives the unit")
 from fmpy.fmi2 import FMU2Slave  # noqa: E402
 
-DEPTH = 40e-6
-MATERIALS = {"elastic": mdr.Elastic(E=3e6, nu=0.5), "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=7e-4)}
-REACH = 0.5 * 1.5 * DEPTH
 U, F, LOST = [0, 1, 2], [3, 4, 5], [6]  # value references
+#: the time of the dashpot is not that of a step, from which on a slip goes by another formula
+MATERIALS = {"elastic": ELASTIC, "Kelvin": mdr.KelvinVoigt(E=3e6, nu=0.5, tau=7e-4)}
+T = np.arange(1, 31)
+WALK = np.column_stack([REACH * np.sin(0.4 * T), REACH * np.cos(0.7 * T), DEPTH * (0.4 + 0.6 * np.sin(0.9 * T))])
 
 
 @pytest.fixture(scope="module", params=MATERIALS)
@@ -25,7 +27,7 @@ def unit(request, tmp_path_factory):
         compiler()
     except NoCompiler as fault:
         pytest.skip(str(fault))
-    contact = mdr.ContactElement(mdr.Paraboloid(R=5e-3), MATERIALS[request.param], 0.5, u_z_max=DEPTH, n_springs=32)
+    contact = element(MATERIALS[request.param], n_springs=32)
     path = tmp_path_factory.mktemp("unit") / "pin.fmu"
     path.write_bytes(fmu(sources(contact, "pin", "a pin"), "pin"))
     described, open_ones = fmpy.read_model_description(str(path)), []
@@ -44,11 +46,6 @@ def unit(request, tmp_path_factory):
     yield contact, path, instance
     for one in open_ones:
         one.freeInstance()
-
-
-def walk(n=30):
-    t = np.arange(1, n + 1)
-    return np.column_stack([REACH * np.sin(0.4 * t), REACH * np.cos(0.7 * t), DEPTH * (0.4 + 0.6 * np.sin(0.9 * t))])
 
 
 def driven(one, us, dt=1e-3):
@@ -75,7 +72,7 @@ def test_it_is_valid_and_holds_its_sources(unit):
 
 def test_its_steps_are_those_of_the_library(unit):
     contact, _, instance = unit
-    one, state, us = instance(), contact.at_rest((0, 0, 0.5 * DEPTH)), walk()
+    one, state, us = instance(), contact.at_rest((0, 0, 0.5 * DEPTH)), WALK
     G, _ = contact.step(state, 1.0, (0, 0, 0.5 * DEPTH))
     assert_allclose(one.getReal(F), G, rtol=1e-14)
     known = []
@@ -88,7 +85,7 @@ def test_its_steps_are_those_of_the_library(unit):
 
 def test_rolled_back_and_serialised_states_go_on_bit_for_bit(unit):
     _, _, instance = unit
-    one, us = instance(), walk()
+    one, us = instance(), WALK
     driven(one, us[:12])
     kept, before = one.getFMUState(), one.getReal(U + F + LOST)
     forces = driven(one, us[12:])
@@ -110,7 +107,7 @@ def test_rolled_back_and_serialised_states_go_on_bit_for_bit(unit):
 
 def test_directional_derivatives_are_the_tangent_of_the_last_step(unit):
     contact, _, instance = unit
-    one, state, us = instance(), contact.at_rest((0, 0, 0.5 * DEPTH)), walk(7)
+    one, state, us = instance(), contact.at_rest((0, 0, 0.5 * DEPTH)), WALK[:7]
     driven(one, us)
     for u in us:
         _, state, K = contact.step(state, 1e-3, u, tangent=True)
@@ -123,7 +120,7 @@ def test_directional_derivatives_are_the_tangent_of_the_last_step(unit):
 @pytest.mark.parametrize(("u", "dt"), [((0, 0, 2 * DEPTH), 1e-3), ((np.nan, 0, 0), 1e-3), ((0, 0, 0), 0.0)])
 def test_a_step_that_is_refused_is_an_error_and_changes_nothing(unit, u, dt):
     _, _, instance = unit
-    one, us = instance(), walk(8)
+    one, us = instance(), WALK[:8]
     driven(one, us[:4])
     before = one.getReal(F + LOST)
     one.setReal(U, u)
@@ -151,7 +148,7 @@ def test_wrong_variables_and_wrong_marks_are_refused(unit):
 
 @pytest.mark.parametrize(("cc", "words"), [("no-such-compiler", "cannot be run"), ("false", "failed")])
 def test_what_cannot_be_compiled_says_so(monkeypatch, cc, words):
-    contact = mdr.ContactElement(mdr.FlatPunch(a=1e-3), MATERIALS["elastic"], 0.5, u_z_max=DEPTH)
+    contact = element()
     monkeypatch.setenv("CC", cc)
     with pytest.raises(NoCompiler, match=words):
         fmu(sources(contact, "pin", ""), "pin")
@@ -170,7 +167,7 @@ def test_its_sources_compile_without_a_warning(monkeypatch, unit):
 def test_fmpy_simulates_it(unit):
     contact, path, _ = unit
     t = np.arange(31) * 1e-3
-    u = np.vstack([[0, 0, 0.5 * DEPTH], walk()])
+    u = np.vstack([[0, 0, 0.5 * DEPTH], WALK])
     steps = np.array(list(zip(t, *u.T, strict=True)), dtype=[(name, float) for name in ("time", "u_x", "u_y", "u_z")])
     found = fmpy.simulate_fmu(str(path), stop_time=0.03, step_size=1e-3, output_interval=1e-3, input=steps,
                               start_values={"u_z": 0.5 * DEPTH}, output=["F_x", "F_z"])  # fmt: skip
@@ -182,7 +179,7 @@ def test_fmpy_simulates_it(unit):
 
 def test_a_state_that_is_set_while_it_is_initialised_is_that_state(unit):
     _, _, instance = unit
-    one, us = instance(), walk()
+    one, us = instance(), WALK
     forces = driven(one, us[:12])
     kept = one.getFMUState()
     one.reset()

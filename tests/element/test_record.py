@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from elements import ARMS, ELASTIC, KELVIN, every_material
+from elements import ARMS, BALL, ELASTIC, KELVIN, MU_0, every_material
 from numpy.testing import assert_allclose
 from twins.path import followed
 
@@ -17,7 +17,7 @@ import mdr
 from mdr.__main__ import main
 from mdr.tools.csv_table import csv_text
 
-BALL, MU_0, OMEGA = mdr.Paraboloid(R=5e-3), 0.5, 314.0
+OMEGA = 314.0
 PERIOD = 2 * np.pi / OMEGA
 
 
@@ -288,13 +288,9 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
     [
         ("t [s], a_x [g], u_x [um], u_z [um]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_x and u_x: leave one out"),
         ("t [s], u_x [um], a_z [g], F_z [N]\n0, 1, 1, 1\n1, 1, 1, 1\n", "names a_z and F_z: leave one out"),
-        ("t [s], a_z [g]\n" + "".join(f"{k}, 1\n" for k in range(9)), "names no u_x"),
         ("t [s], u_x [um]\n0, 1\n1, 2\n", "names no depth"),
-        ("t [s], u_x, u_z [um]\n0, 1, 1\n", "u_x needs a unit"),
         ("t [s], u_z [um]\n0, 1\n", "names no u_x"),
         ("t [s], u_x [um], F_z [N]\n0, 1, 1\n0, 2, 1\n", "t must rise"),
-        ("t [s], u_x [um], F_z [N]\n0, 1, 1\n1, 2\n", "the cell is empty"),
-        ("", "holds no table"),
     ],
 )
 def test_hostile_files_are_refused(tmp_path, capsys, text, words):
