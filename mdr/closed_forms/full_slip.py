@@ -80,16 +80,16 @@ def static_cof(case: SlidingContact) -> float:
         return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):
         return full_cof(case)
+    kept = case.cycle.u_z0 + case.cycle.unit * case.kept_gap  # depth at which no spring presses that ever leaves
     if case.material.contact_arms and not followed(case).F_N.all():  # at some instant nothing presses
         least = 0.0
     elif case.material.contact_arms:
         least = max(_least(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
-        least = float(case.indenter.force(case.cycle.u_z0 + case.cycle.unit * case.kept_gap, case.material.E_star))
-    if not case.tau_0:
-        return case.mu_0 * least / mean_normal_force(case)
-    a = float(case.indenter.contact_radius(max(case.cycle.u_z0 + case.cycle.unit * case.kept_gap, 0.0)))
-    held = case.tau_0 * np.pi * a**2 if case.keeps_contact else 0.0
+        least = float(case.indenter.force(kept, case.material.E_star))
+    held = 0.0
+    if case.tau_0 and case.keeps_contact:
+        held = case.tau_0 * np.pi * float(case.indenter.contact_radius(kept)) ** 2
     return (case.mu_0 * least + held) / mean_normal_force(case)
 
 

@@ -308,7 +308,7 @@ def _resonant_harmonic(pull: Pull, omega: float) -> int:
 def _velocity_unbounded_at_touch(case: SlidingContact) -> bool:
     """True if a body without mass and damper has unbounded velocity as dashpots touch: a(d) rises faster than d."""
     m, c_x, _ = case.pull.coefficients
-    if case.pull.is_rigid or m > 0 or c_x > 0 or case.T == 0 or case.keeps_contact:
+    if m > 0 or c_x > 0 or case.T == 0 or case.keeps_contact:
         return False
     low, high = (float(case.indenter.contact_radius(share * case.u_z_max)) for share in (1e-9, 1e-8))
     return bool(np.log10(high / low) < 0.999)

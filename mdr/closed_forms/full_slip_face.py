@@ -27,14 +27,12 @@ FINE, MOST_PHASES = 60.0, 2**15  #: of a half-space: phases times omega tau, ten
 
 
 def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
-    """Greatest rest(phase) + r' [m/s] of any spring in contact, on an elastic or Kelvin material. rest: the rates that
-    all springs have.
+    """Greatest rest(phase) + r' [m/s] of any spring in contact on a Kelvin material, where the edge of contact moves.
+    rest: the rates that all springs have.
     """
     from scipy.optimize import minimize
 
     phase = 2 * np.pi / PHASES * np.arange(float(PHASES))
-    if not case.edge_moves:
-        return float(rest(phase).max())
     a = contact_radius(case, phase)
     x = _places(a)
     total = rest(phase)[:, None] + _rates(case, a, x, np.sqrt(np.maximum(a[:, None] ** 2 - x**2, 0.0)))

@@ -15,7 +15,6 @@ from io import BytesIO
 from pathlib import Path
 from shutil import which
 from tempfile import TemporaryDirectory
-from typing import Any
 from xml.etree import ElementTree
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
@@ -124,9 +123,10 @@ def description(name: str, mark: str) -> str:
         ElementTree.SubElement(ElementTree.SubElement(units, "Unit", name=in_unit), "BaseUnit", powers)
     variables = ElementTree.SubElement(top, "ModelVariables")
     for k, (variable, in_unit, meaning, causality) in enumerate(VARIABLES):
-        given: dict[str, Any] = {"name": variable, "valueReference": str(k), "description": meaning}
-        one = ElementTree.SubElement(variables, "ScalarVariable", {**given, "causality": causality})
-        one.set("variability", "continuous")
+        one = ElementTree.SubElement(
+            variables, "ScalarVariable", name=variable, valueReference=str(k), description=meaning,
+            causality=causality, variability="continuous",
+        )  # fmt: skip
         ElementTree.SubElement(one, "Real", {"unit": in_unit, **({"start": "0"} if causality == "input" else {})})
     structure = ElementTree.SubElement(top, "ModelStructure")
     for group in ("Outputs", "InitialUnknowns"):

@@ -12,7 +12,6 @@ from twins import rigid_pull as reference
 
 import mdr
 from mdr.closed_forms import paper
-from mdr.closed_forms.full_slip import normal_force_harmonics
 from mdr.normal.normal_force import contact_radius, mean_normal_force, normal_force
 
 COS = np.ones(1, dtype=complex)  # of the depth
@@ -28,10 +27,6 @@ def test_force_of_a_kelvin_punch_that_keeps_contact_is_eq_4(T):
     assert case.keeps_contact
     assert_allclose(normal_force(case, phase), expected, rtol=1e-12, atol=1e-12 * expected.max())
     assert_allclose(contact_radius(case, phase), case.indenter.a)
-    harmonics = normal_force_harmonics(case, 256)
-    assert_allclose(harmonics[0], case.k_zc * osc.u_z0, rtol=1e-12)
-    assert_allclose(2 * abs(harmonics[1]), paper.eq_6(osc.du_z, osc.omega, case.k_zc, case.gamma_zc), rtol=1e-12)
-    assert np.abs(harmonics[2:]).max() < 1e-13 * harmonics[0].real
 
 
 @pytest.mark.parametrize("T", [0.0, 0.5, 3.0])

@@ -9,7 +9,6 @@ from scipy.special import ellipe, ellipk
 
 import mdr
 from mdr.closed_forms.critical_velocity import velocity_scale
-from mdr.closed_forms.full_slip_face import greatest_rate
 from mdr.normal.normal_force import contact_radius, full_cof
 
 OMEGA, DEPTH, TAU = 300.0, 20e-6, 0.5 / 300
@@ -131,11 +130,6 @@ def test_the_static_limit_is_least_force_and_least_area():
         assert_allclose(mdr.static_cof(case), slow.cof, atol=rise * full_cof(case))
     lost = replace(case, oscillation=replace(MOTION, du_z=2 * DEPTH))
     assert mdr.static_cof(lost) == 0
-
-
-def test_the_greatest_rate_of_a_face_that_keeps_its_radius_is_that_of_all_springs():
-    flat = mdr.SlidingContact(mdr.FlatPunch(1e-3), RUBBER, 0.3, MOTION, tau_0=1e4)
-    assert greatest_rate(flat, lambda phase: np.cos(phase)) == 1.0
 
 
 def test_velocity_of_a_share_turns_the_law_round():
