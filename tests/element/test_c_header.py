@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from elements import ARMS, BALL, DEPTH, DOUBLES, KELVIN, MU_0, REACH, at, element, in_c, walk
+from elements import BALL, DEPTH, DOUBLES, KELVIN, MU_0, REACH, at, element, in_c, walk
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -191,8 +191,3 @@ def test_a_header_has_500_lines_at_most_and_its_own_names(material):
     assert text.count("*/ line") == 0
     assert all(word in text for word in ("#ifndef LEFT_FOOT_H", "left_foot_step(", " *     another * / line"))
     assert ("define LEFT_FOOT_T " in text) == (material.tau > 0)  # an elastic contact has no dashpot to carry
-
-
-def test_arms_are_refused_in_words():
-    with pytest.raises(ValueError, match="elastic or a Kelvin material can be exported"):
-        header(element(ARMS), "contact", "")
