@@ -30,7 +30,6 @@ from mdr.tools.checks import count, finite_array, instance, not_negative, positi
 from mdr.tools.compiler import tell_if_missing
 from mdr.tools.fields import Record, check_fields, facts
 
-NO_TANGENT = np.empty((0, 3, 3))
 TAKE = "take that of its at_rest() or step()"
 FAULTS = {
     NOT_FINITE: f"state must be finite, got NaN or infinity: {TAKE}",
@@ -178,12 +177,12 @@ class ContactElement(Record):
         if us.shape[:-1] != states.shape[:-1]:
             raise ValueError(f"u must have the shape {(*states.shape[:-1], 3)} of this state, got {us.shape}")
         dt, h = not_negative("dt", dt, "length of a step in s"), 1.0
-        if self._is_viscous:
+        if self._row.law.modes is not None:
             h = positive("dt", dt, "length of a step in s; the force of a viscous contact depends on it")
         if not isinstance(tangent, bool):
             raise TypeError(f"tangent must be True or False, got {tangent!r}")
         answer, flat = np.array(states, order="C"), np.array(us, order="C").reshape(-1, 3)
-        F, K = np.empty(flat.shape), np.empty((len(flat), 3, 3)) if tangent else NO_TANGENT
+        F, K = np.empty(flat.shape), np.empty((len(flat) if tangent else 0, 3, 3))
         if wrong := steps(answer.reshape(-1, self.n_state), flat, h, self._row, self._mark, F, K):
             if wrong == BEYOND:
                 what = "force, work or springs are beyond the range of floats"
@@ -251,10 +250,6 @@ class ContactElement(Record):
     @property
     def _rows(self) -> int:
         return ratios_of(self._row).size
-
-    @property
-    def _is_viscous(self) -> bool:
-        return self._row.law.modes is not None
 
     def _states(self, state: ArrayLike) -> Array:
         states = real_array("state", state)
