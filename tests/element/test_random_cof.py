@@ -1,6 +1,5 @@
 """Friction under a random depth: its bookkeeping against recorded motion, invariances, and what is refused."""
 
-import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -78,14 +77,10 @@ def test_only_ratios_matter(case):
     assert_allclose(other.cof, found.cof, rtol=1e-9)
 
 
-def test_the_record_of_it():
+def test_its_words_its_table_and_its_figure():
     found = mdr.random_cof(PUNCH, BAND, [UNIT, 2 * UNIT], n_realisations=8)
-    assert found == mdr.random_cof(PUNCH, BAND, [UNIT, 2 * UNIT], n_realisations=8) == pickle.loads(pickle.dumps(found))
-    assert str(found).startswith("RandomCof at 2 velocities")
     assert "of 8 realisations" in str(found)
     assert found.table().splitlines()[0] == "v_0 [m/s],cof [-],standard_error [-],cof_error [-]"
     assert len(found.table().splitlines()) == 3
-    with pytest.raises(ValueError, match="read-only"):
-        found.cof[0] = 0
     ax = found.plot()
     assert found.plot(ax) is ax
