@@ -41,7 +41,7 @@ def pressure(product: Callable[[Array], Array], g: Array, start: Array, toleranc
             residual, exact = product(p) - g, True
             continue
         norm = float(np.sum(r * r))
-        direction = np.where(contact, r + (norm / before if np.isfinite(before) else 0.0) * direction, 0.0)
+        direction = np.where(contact, r + norm / before * direction, 0.0)
         before = norm
         image = product(direction)
         curvature = float(np.sum(direction * image))

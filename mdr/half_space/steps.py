@@ -56,11 +56,6 @@ class Contact:
     transverse: bool = True  #: False: tractions and slip along the pull only, as springs have them
     turning: bool = False  #: True: two stages in a step, of second order where friction turns; tau must be 0
 
-    @property
-    def cell(self) -> float:
-        """Area of a cell."""
-        return self.half_space.h**2
-
     def limit(self, pressure: Array) -> Array:
         """The greatest traction along the surface [Pa] in cells of this pressure, (n, n).
 
@@ -95,7 +90,7 @@ class Contact:
 
     def forces(self, tractions: Array) -> Array:
         """F_x, F_y, F_z [N]."""
-        total: Array = np.sum(tractions, axis=(1, 2)) * self.cell
+        total: Array = np.sum(tractions, axis=(1, 2)) * self.half_space.h**2
         return total
 
     def march(self, start: Step, depth: Array, way: Array, dt: float) -> Iterator[Step]:

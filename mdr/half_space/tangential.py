@@ -12,10 +12,8 @@ on the discs and a line search on the energy (Bertsekas, SIAM J. Control Optim. 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.half_space.normal import NotConverged
 from mdr.tools.arrays import EPS, Array
@@ -48,7 +46,7 @@ def traction(
             return q
         # coarsely: the step is only a direction, which the line search shortens
         close = max(1e-2, 0.1 * tolerance * scale / float(np.max(off)))
-        step = _newton(product, gradient, _rim(q, gradient, bound), bound > 0, stiff, close)
+        step = _newton(product, gradient, q, bound, stiff, close)
         q, image = _searched(product, q, image, c, step, bound)
     raise NotConverged(f"friction is off by {np.max(off) / scale:.1e} of its bound after {most} steps")
 
@@ -66,30 +64,23 @@ def _into_discs(q: Array, bound: Array) -> Array:
     return q * np.where(over, bound / np.where(over, size, 1.0), 1.0)
 
 
-class Rim(NamedTuple):
-    """Where cells are on the rims of their discs."""
-
-    stays: NDArray[np.bool_]  #: which do not leave it
-    curvature: Array  #: that the rim gives them
-    normal: Array
-
-
-def _rim(q: Array, gradient: Array, bound: Array) -> Rim:
-    """The cells that stay on their rim."""
+def _rim(q: Array, gradient: Array, bound: Array) -> tuple[Array, Array]:
+    """Normal (2, n, n) and curvature (n, n) of the rim, for cells that stay on it; zero elsewhere."""
     size = np.hypot(*q)
     normal = np.where(size > 0, q / np.where(size > 0, size, 1.0), 0.0)
     outward = -np.sum(gradient * normal, axis=0)
     at_limit = size >= (1 - 4 * EPS) * bound  # as projected, but for the rounding of ratio, product and length
     stays = at_limit & (bound > 0) & (outward > 0)
-    return Rim(stays, np.where(stays, outward / np.where(bound > 0, bound, 1.0), 0.0), normal)
+    return np.where(stays, normal, 0.0), np.where(stays, outward / np.where(bound > 0, bound, 1.0), 0.0)
 
 
 def _newton(
-    product: Callable[[Array], Array], gradient: Array, rim: Rim, alive: NDArray[np.bool_], stiff: float, close: float
+    product: Callable[[Array], Array], gradient: Array, q: Array, bound: Array, stiff: float, close: float
 ) -> Array:
     """The step along free directions: conjugate gradients on the projected system, scaled by its diagonal."""
-    inside, across = alive.astype(float), np.where(rim.stays, rim.normal, 0.0)
-    scaling = inside / (1 / stiff + rim.curvature)
+    across, curvature = _rim(q, gradient, bound)
+    inside = (bound > 0).astype(float)
+    scaling = inside / (1 / stiff + curvature)
 
     def free(v: Array) -> Array:
         out: Array = v * inside
@@ -108,7 +99,7 @@ def _newton(
         norm = float(np.vdot(left, scaled))
         direction = scaled + norm / before * direction
         before = norm
-        image = free(product(direction)) + rim.curvature * direction
+        image = free(product(direction)) + curvature * direction
         along = norm / float(np.vdot(direction, image))
         step += along * direction
         left -= along * image
