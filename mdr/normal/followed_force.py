@@ -61,58 +61,51 @@ def normal_cycle(
         S += 2 * radius[0] * at_instants(cycle.harmonics, n_t) - depth
     in_contact, touches, leaves = np.ones(n_t, dtype=bool), np.empty(0), np.empty(0)
     if n_core < gap.size:
-        F, radius = _Band(x[n_core:], gap[n_core:], width[n_core:]).press(F, S, radius, rheology, cycle)
+        band = followed_springs(rheology, gap[n_core:], width[n_core:], cycle, n_t)
+        S += band.compression
+        F, radius = _with_band(F, radius, band, x[n_core:], width[n_core:])
         if not n_core:
             in_contact, touches, leaves = _tip(rheology, cycle, n_t)
     return NormalCycle(F * cycle.unit, S * cycle.unit, radius, in_contact, touches, leaves)
 
 
-@dataclass(frozen=True, eq=False)
-class _Band:
-    """The springs that touch and leave, from the centre outwards; gap in du_z."""
+def _with_band(F: Array, radius: Array, band: NormalPeriod, x: Array, width: Array) -> tuple[Array, Array]:
+    """Force and radius of contact, (n_t,), with the springs that touch and leave; x, width: theirs, outwards.
 
-    x: Array
-    gap: Array
-    width: Array
+    A sum over the springs that press is an integral up to the end of the cell of the last one. From there to the
+    edge of the contact the force is linear, as between the last two springs: all is of third order in the width of
+    a cell. The end of a midpoint rule adds its own term, width² slope/24.
+    """
+    force, since = _at_instants(band)
+    now, presses, cell = np.arange(F.size), since > 0, 0.5 * width
+    last = x.size - 1 - np.argmax(presses[:, ::-1], axis=1)
+    behind, f = np.maximum(last - 1, 0), force[now, last]
+    with np.errstate(invalid="ignore"):
+        slope = np.nan_to_num((f - force[now, behind]) / (x[last] - x[behind]))
+    to_end = (radius[0] + np.cumsum(cell) - x)[last]
+    to_edge = _to_edge(x, last, f, slope, to_end, since)
+    rest = (to_edge - to_end) * f + 0.5 * slope * (to_edge**2 - to_end**2 + cell[last] ** 2 / 12)
+    some = presses.any(axis=1)
+    return F + force @ width + np.where(some, 2 * rest, 0), np.where(some, x[last] + to_edge, radius)
 
-    def press(self, F: Array, S: Array, radius: Array, rheology: Rheology, cycle: Cycle) -> tuple[Array, Array]:
-        """Force and radius of contact with the band, (n_t,); adds to S (n_t,) what the band is compressed by.
 
-        A sum over the springs that press is an integral up to the end of the cell of the last one. From there to the
-        edge of the contact the force is linear, as between the last two springs: all is of third order in the width of
-        a cell. The end of a midpoint rule adds its own term, width² slope/24.
-        """
-        known = followed_springs(rheology, self.gap, self.width, cycle, F.size)
-        force, since = _at_instants(known)
-        now, presses, cell = np.arange(F.size), since > 0, 0.5 * self.width
-        last = self.x.size - 1 - np.argmax(presses[:, ::-1], axis=1)
-        behind, f = np.maximum(last - 1, 0), force[now, last]
-        with np.errstate(invalid="ignore"):
-            slope = np.nan_to_num((f - force[now, behind]) / (self.x[last] - self.x[behind]))
-        to_end = (radius[0] + np.cumsum(cell) - self.x)[last]
-        to_edge = self._to_edge(last, f, slope, to_end, since)
-        rest = (to_edge - to_end) * f + 0.5 * slope * (to_edge**2 - to_end**2 + cell[last] ** 2 / 12)
-        some = presses.any(axis=1)
-        S += known.compression
-        return F + force @ self.width + np.where(some, 2 * rest, 0), np.where(some, self.x[last] + to_edge, radius)
+def _to_edge(x: Array, last: Array, f: Array, slope: Array, to_end: Array, since: Array) -> Array:
+    """From the last spring that presses to the edge of the contact, (n_t,).
 
-    def _to_edge(self, last: Array, f: Array, slope: Array, to_end: Array, since: Array) -> Array:
-        """From the last spring that presses to the edge of the contact, (n_t,).
-
-        The edge of a growing contact passes by springs as they touch: a parabola in time through the last two and the
-        next one. Another contact ends where the force has fallen to zero.
-        """
-        now, behind, ahead = np.arange(last.size), np.maximum(last - 1, 0), np.minimum(last + 1, self.x.size - 1)
-        touched, touches = _touches(since)
-        t_0, t_1, t_2 = touched[now, behind], touched[now, last], touches[now, ahead]
-        to_next = self.x[ahead] - self.x[last]
-        with np.errstate(all="ignore"):  # springs that touch at once, or never
-            pace = to_next / (t_2 - t_1)
-            bend = np.nan_to_num((pace - (self.x[last] - self.x[behind]) / (t_1 - t_0)) / (t_2 - t_0))
-            grown = (now - t_1) * (pace + bend * (now - t_2))
-            shrunk = np.where(slope < 0, -f / slope, to_end)
-        to_edge = np.clip(np.where(t_2 < touches[now, last], grown, shrunk), 0, to_next)
-        return np.where(ahead > last, to_edge, to_end)
+    The edge of a growing contact passes by springs as they touch: a parabola in time through the last two and the
+    next one. Another contact ends where the force has fallen to zero.
+    """
+    now, behind, ahead = np.arange(last.size), np.maximum(last - 1, 0), np.minimum(last + 1, x.size - 1)
+    touched, touches = _touches(since)
+    t_0, t_1, t_2 = touched[now, behind], touched[now, last], touches[now, ahead]
+    to_next = x[ahead] - x[last]
+    with np.errstate(all="ignore"):  # springs that touch at once, or never
+        pace = to_next / (t_2 - t_1)
+        bend = np.nan_to_num((pace - (x[last] - x[behind]) / (t_1 - t_0)) / (t_2 - t_0))
+        grown = (now - t_1) * (pace + bend * (now - t_2))
+        shrunk = np.where(slope < 0, -f / slope, to_end)
+    to_edge = np.clip(np.where(t_2 < touches[now, last], grown, shrunk), 0, to_next)
+    return np.where(ahead > last, to_edge, to_end)
 
 
 def _touches(since: Array) -> tuple[Array, Array]:
