@@ -31,13 +31,6 @@ Complex = NDArray[np.complex128]
 Orders = NDArray[np.intp]
 
 
-class Series(NamedTuple):
-    """Harmonics of a record."""
-
-    omega: float  #: angular frequency of the fundamental [rad/s]
-    A: Complex  #: (N,) of the orders 1 to N, with t from zero; zero where noise hides it
-
-
 class _Record(NamedTuple):
     t: Array  #: (n_t,) from the middle of the record
     a: Array  #: (n_t,) less its mean
@@ -58,8 +51,11 @@ class _Fit(NamedTuple):
     noise: Array  #: (n_orders,) |A|² that white noise passes at one frequency in n_t with the probability 1e-4
 
 
-def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
-    """The harmonics of a periodic record. Warns where much of the record is left out."""
+def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> tuple[float, Complex]:
+    """Angular frequency [rad/s] of a periodic record, and its harmonics (N,) of the orders 1 to N, with t from zero.
+
+    A harmonic is zero where noise hides it. Warns where much of the record is left out.
+    """
     t, a = sampled(t, a)
     record = _Record(t - t.mean(), a - a.mean(), (t[-1] - t[0]) * t.size / (t.size - 1))
     if frequency is None:
@@ -72,7 +68,7 @@ def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None) -> Series:
         raise _nothing(record)
     A = _by_order(fit)
     _tell(record, omega, A, fit)
-    return Series(omega, A * np.exp(-1j * np.arange(1, A.size + 1) * omega * t.mean()))
+    return omega, A * np.exp(-1j * np.arange(1, A.size + 1) * omega * t.mean())
 
 
 def sampled(t: ArrayLike, a: ArrayLike) -> tuple[Array, Array]:

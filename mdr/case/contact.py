@@ -338,12 +338,12 @@ class SlidingContact(Record, Summarised):
         """mu_0 kappa du_z + 2 tau_0 a(u_z_max)/G* [m]: change of the deflection at which pressed springs slip, and the
         part of it that a shear strength holds; a unit of tangential lengths. At a constant depth u_z0 stands for du_z.
         """
-        more = self._strength(self.u_z_max) if self.tau_0 else 0.0
-        return self.mu_0 * self.material.mindlin_ratio * self.cycle.unit + more
+        return self.mu_0 * self.material.mindlin_ratio * self.cycle.unit + self._strength(self.u_z_max)
 
     def _strength(self, depth: float) -> float:
         """2 tau_0 a/G* [m]: deflection of the spring in the middle that the shear strength holds."""
-        return 2 * self.tau_0 * float(self.indenter.contact_radius(depth)) / self.material.G_star
+        a = float(self.indenter.contact_radius(max(depth, 0.0))) if self.tau_0 else 0.0
+        return 2 * self.tau_0 * a / self.material.G_star
 
     @property
     def unit_velocity(self) -> float:
@@ -381,8 +381,7 @@ class SlidingContact(Record, Summarised):
         float
             mu_0 kappa u_z [m], and with a shear strength 2 tau_0 a/G* more.
         """
-        more = self._strength(max(depth, 0.0)) if self.tau_0 else 0.0
-        return self.mu_0 * self.material.mindlin_ratio * depth + more
+        return self.mu_0 * self.material.mindlin_ratio * depth + self._strength(depth)
 
     @property
     def fastest_across(self) -> float:

@@ -317,9 +317,9 @@ class PeriodicMotion(Motion):
         >>> print(f"{motion.omega / (2 * np.pi):.2f} Hz, {len(motion.cos)} harmonics, {motion.cos[0]:.2e} m")
         80.30 Hz, 3 harmonics, 1.96e-06 m
         """
-        series = series_of(t, a, frequency)
-        swing = -series.A / (np.arange(1, series.A.size + 1) * series.omega) ** 2
-        motion = cls(series.omega, u_z0, tuple(swing.real), tuple(-swing.imag))
+        omega, A = series_of(t, a, frequency)
+        swing = -A / (np.arange(1, A.size + 1) * omega) ** 2
+        motion = cls(omega, u_z0, tuple(swing.real), tuple(-swing.imag))
         return motion._not_wide("is a in m/s², and t in s?")
 
     def with_amplitude(self, du_z: float) -> PeriodicMotion:
