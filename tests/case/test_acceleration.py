@@ -31,12 +31,6 @@ def truth(f, U):
     return mdr.PeriodicMotion(2 * np.pi * f, U_Z0, tuple(U.real), tuple(-U.imag))
 
 
-def test_the_acceleration_is_the_slope_of_the_rate():
-    motion, t, dt = truth(50.0, SERIES["falling"]), np.linspace(0, 0.05, 17), 1e-7
-    slope = (motion.u_z_dot(t + dt) - motion.u_z_dot(t - dt)) / (2 * dt)
-    assert_allclose(motion.u_z_ddot(t), slope, rtol=0, atol=1e-6)  # (3 omega dt)²/6 of 0.5 m/s², and rounding
-
-
 @pytest.mark.parametrize("given", [False, True], ids=["found", "given"])
 @pytest.mark.parametrize("seed", [None, 4], ids=["even", "uneven"])
 @pytest.mark.parametrize("U", SERIES.values(), ids=SERIES)

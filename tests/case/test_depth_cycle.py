@@ -15,33 +15,30 @@ SERIES = {
 }
 
 
+@pytest.fixture(params=SERIES.values(), ids=SERIES)
+def cycle(request):
+    return Cycle.series(5e-6, 300.0, *request.param)
+
+
 def dense(cycle, n=200_001):
     return cycle.z(np.linspace(0, 2 * np.pi, n))
 
 
-@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
-def test_extremes_and_scale(series):
-    cycle = Cycle.series(5e-6, 300.0, *series)
+def test_extremes_and_scale(cycle):
     z = dense(cycle)
     assert_allclose([cycle.least, cycle.greatest], [z.min(), z.max()], rtol=0, atol=1e-6)  # bend 40²/2 (pi/2e5)²
     assert cycle.greatest >= z.max() - 1e-14
     assert_allclose(cycle.greatest - cycle.least, 2, rtol=1e-14)
-    phase = np.array([0.3, 4.0])
-    n = np.arange(1, series[0].size + 1)[:, None]
-    expected = (series[0][:, None] * np.cos(n * phase) + series[1][:, None] * np.sin(n * phase)).sum(axis=0)
-    assert_allclose(cycle.du_z * cycle.z(phase), expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
-def test_rate_is_the_derivative(series):
-    cycle, phase, d = Cycle.series(5e-6, 300.0, *series), np.linspace(0, 6, 13), 1e-5
-    # a central difference misses n³ d²/6 of each term
-    assert_allclose(cycle.rate(phase), (cycle.z(phase + d) - cycle.z(phase - d)) / (2 * d), rtol=0, atol=1e-6)
+def test_rate_and_bend_are_derivatives(cycle):
+    phase, d = np.linspace(0, 6, 13), 1e-5
+    for value, slope in ((cycle.z, cycle.rate), (cycle.rate, cycle.bend)):
+        # a central difference misses n³ d²/6 of each term, and n⁴ of a rate
+        assert_allclose(slope(phase), (value(phase + d) - value(phase - d)) / (2 * d), rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
-def test_nodes_are_those_of_the_sum(series):
-    cycle = Cycle.series(5e-6, 300.0, *series)
+def test_nodes_are_those_of_the_sum(cycle):
     phase = 2 * np.pi * np.arange(257) / 256
     z, rate = cycle.over_a_period(256)
     assert_allclose(z, cycle.z(phase), rtol=0, atol=1e-12)
@@ -56,10 +53,8 @@ def test_a_harmonic_cycle_is_bitwise_a_cosine_that_ends_as_it_began():
     assert (z[-1], rate[-1]) == (z[0], rate[0])
 
 
-@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
-def test_kept_gap_is_where_the_least_force_vanishes(series):
-    cycle, rheology = Cycle.series(5e-6, 300.0, *series), Rheology(0.2, (1.5,), (0.8,))
-    n = np.arange(1, series[0].size + 1)
+def test_kept_gap_is_where_the_least_force_vanishes(cycle):
+    rheology, n = Rheology(0.2, (1.5,), (0.8,)), np.arange(1, cycle.cos.size + 1)
     phase = np.linspace(0, 2 * np.pi, 100_001)
     force = (cycle.harmonics * rheology.response(n) * np.exp(1j * np.outer(phase, n))).real.sum(axis=1)
     assert_allclose(cycle.kept_gap(rheology.response), force.min(), rtol=1e-6)
@@ -74,9 +69,7 @@ def test_a_spike_beside_a_broad_crest_is_found():
     assert_allclose(peak(harmonics), values.max(), rtol=1e-7)
 
 
-@pytest.mark.parametrize("series", SERIES.values(), ids=SERIES)
-def test_turns_are_all_extremes(series):
-    cycle = Cycle.series(5e-6, 300.0, *series)
+def test_turns_are_all_extremes(cycle):
     phase = turns(cycle.harmonics)
     assert_allclose(cycle.rate(phase), 0, atol=1e-11)
     values = dense(cycle)[:-1]
