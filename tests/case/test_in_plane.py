@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.case.depth_cycle import harmonic_sum
 from mdr.given.vary import case_at
 
 OMEGA = 300.0
@@ -47,10 +48,7 @@ def test_frequencies_in_whole_ratios_share_a_period(p, q):
     t = np.linspace(0, case.period, 50)
     phase = case.omega * t
     assert_allclose(case.cycle.u_z0 + case.cycle.unit * case.cycle.z(phase), case.oscillation.u_z(t), rtol=1e-12)
-    x = (case.shake_harmonics * np.exp(1j * np.outer(phase, np.arange(1, case.shake_harmonics.size + 1)))).real.sum(
-        axis=1
-    )
-    assert_allclose(x, 3e-6 * np.cos(q * OMEGA * t + 0.7), rtol=0, atol=1e-18)
+    assert_allclose(harmonic_sum(case.shake_harmonics, phase), 3e-6 * np.cos(q * OMEGA * t + 0.7), rtol=0, atol=1e-18)
 
 
 def test_the_tool_is_shaken_whole_and_the_pull_through_spring_and_damper():
@@ -75,8 +73,6 @@ def test_groups_of_a_shaken_contact():
 
 def test_a_constant_load_rests_where_the_material_carries_it():
     ball = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), RUBBER, 0.4, mdr.ConstantLoad(F_z0=0.05), shake=SHAKE)
-    with pytest.raises(ValueError, match="follow from shape and material"):
-        _ = ball.cycle
     known = mdr.resolved(ball)
     assert float(ball.indenter.force(known.working_depth, RUBBER.E_star)) == pytest.approx(0.05, rel=1e-12)
     assert known.cycle.u_z0 == known.working_depth

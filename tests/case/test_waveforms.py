@@ -1,6 +1,7 @@
 """Named waveforms: the fall of the depth, no overshoot, the ideal form as harmonics grow."""
 
 import doctest
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,13 +10,10 @@ from mdr.case import waveforms
 
 PHASE = np.arange(4096) / 4096
 MADE = {
-    "rising saw": (lambda **knobs: waveforms.sawtooth(**knobs), lambda x: 2 * x - 1),
-    "falling saw": (lambda **knobs: waveforms.sawtooth(**knobs, falling=True), lambda x: 1 - 2 * x),
-    "square": (lambda **knobs: waveforms.square(**knobs), lambda x: np.where(np.abs(x - 0.5) > 0.25, 1.0, -1.0)),
-    "pulse": (
-        lambda **knobs: waveforms.pulse(**knobs, width=0.2),
-        lambda x: np.where(np.abs(x - 0.5) > 0.4, 4.0, -1.0),
-    ),
+    "rising saw": (waveforms.sawtooth, lambda x: 2 * x - 1),
+    "falling saw": (partial(waveforms.sawtooth, falling=True), lambda x: 1 - 2 * x),
+    "square": (waveforms.square, lambda x: np.where(np.abs(x - 0.5) > 0.25, 1.0, -1.0)),
+    "pulse": (partial(waveforms.pulse, width=0.2), lambda x: np.where(np.abs(x - 0.5) > 0.4, 4.0, -1.0)),
 }
 
 
