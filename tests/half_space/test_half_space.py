@@ -62,6 +62,7 @@ def test_a_product_is_the_sum_over_cells():
 BALL = mdr.SlidingContact(
     mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), 0.3, mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
 )
+COUPLED = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
 V = 0.4 * mdr.critical_velocity(BALL)
 COARSE = Settings(cells=25, steps=24, cycles=2)
 SMALL = Settings(cells=13, steps=12, cycles=2)
@@ -78,15 +79,9 @@ def test_without_coupling_the_half_space_has_the_friction_of_the_springs(motion,
     assert abs(off) < 5e-4 * case.mu_0  # of 31 cells
 
 
-def test_an_incompressible_body_knows_no_coupling():
-    one, two = (in_three_dimensions(BALL, V, replace(SMALL, coupled=on)) for on in (True, False))
-    assert_allclose(one.cof, two.cof, rtol=1e-9)
-
-
 def test_what_is_neither_stick_nor_slip_is_not_there():
     """In every cell |q| <= mu_0 p; where it is less nothing slips, and where it is equal slip is along q."""
-    case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
-    contact = contact_of(case, COARSE)
+    contact = contact_of(COUPLED, COARSE)
     depth = 20e-6 + 6e-6 * np.linspace(-1, 1, 5)
     for step in contact.march(contact.full_slip(14e-6), depth, np.outer([V, 0.0], np.arange(5) * 1e-3), 1.0):
         p, q = step.pressure, step.tractions[:2]
@@ -100,23 +95,22 @@ def test_what_is_neither_stick_nor_slip_is_not_there():
 
 
 def test_a_march_may_go_on_from_another_and_end_when_settled():
-    case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
     few = Settings(cells=9, steps=8, cycles=1)
-    on = last_period(case, V, few, last_period(case, V, few).steps[-1])
-    assert_allclose(on.friction.cof, last_period(case, V, replace(few, cycles=2)).friction.cof, rtol=1e-12)
-    early = last_period(case, V, replace(few, cycles=40, settled=1e-3))
+    on = last_period(COUPLED, V, few, last_period(COUPLED, V, few).steps[-1])
+    assert_allclose(on.friction.cof, last_period(COUPLED, V, replace(few, cycles=2)).friction.cof, rtol=1e-12)
+    early = last_period(COUPLED, V, replace(few, cycles=40, settled=1e-3))
     assert 2 < early.friction.cycles < 40
-    assert early.friction.settling <= 1e-3 * case.mu_0
-    late = last_period(case, V, replace(few, cycles=4), early.steps[-1])
-    assert_allclose(early.friction.cof, late.friction.cof, atol=1e-3 * case.mu_0)
+    assert early.friction.settling <= 1e-3 * COUPLED.mu_0
+    late = last_period(COUPLED, V, replace(few, cycles=4), early.steps[-1])
+    assert_allclose(early.friction.cof, late.friction.cof, atol=1e-3 * COUPLED.mu_0)
 
 
 def test_slip_across_may_be_left_out():
-    case = replace(BALL, material=mdr.Elastic(E=3e6, nu=0.3))
-    along = last_period(case, V, replace(SMALL, cycles=1, transverse=False))
+    settings = replace(SMALL, cycles=1, transverse=False)
+    along = last_period(COUPLED, V, settings)
     assert all(np.all(step.tractions[Y] == 0) for step in along.steps)
-    fast = in_three_dimensions(case, 5 * V, replace(SMALL, cycles=1, transverse=False))
-    assert_allclose(fast.cof, case.mu_0, rtol=1e-9)  # 2 v_c: all slip along the pull
+    fast = in_three_dimensions(COUPLED, 5 * V, settings)
+    assert_allclose(fast.cof, COUPLED.mu_0, rtol=1e-9)  # 2 v_c: all slip along the pull
 
 
 def test_a_step_that_does_not_converge_stops_the_run():

@@ -18,17 +18,6 @@ def paraboloid(n, nu):
     return Contact(half_space, r**2 / 2, MU)
 
 
-def turned(contact, first, then, steps=8):
-    """Forces (3,) after a path along x and one along y, each in units of mu_0 kappa d, and before the turn."""
-    unit = MU * contact.half_space.E_star / contact.half_space.G_star / steps
-    start = contact.full_slip(1.0, way=0.0)
-    way = np.zeros((2, 2 * steps + 1))
-    way[0] = first * unit * np.minimum(np.arange(2 * steps + 1), steps)
-    way[1] = then * unit * np.maximum(np.arange(2 * steps + 1) - steps, 0)
-    ends = list(contact.march(start, np.ones(2 * steps + 1), way, 1.0))
-    return contact.forces(ends[-1].tractions), contact.forces(ends[steps - 1].tractions), ends
-
-
 def test_two_stages_are_of_second_order_where_friction_turns():
     contact, s = paraboloid(11, 0.3), np.linspace(0, 1, 65)
     way = MU * np.stack([np.sin(4 * s), 1 - np.cos(4 * s)])
@@ -44,15 +33,13 @@ def test_two_stages_are_of_second_order_where_friction_turns():
     assert np.all(np.hypot(*end.tractions[:2]) <= MU * end.pressure * (1 + 1e-9))
 
 
-def stiffness(contact):
-    """Of the full contact: the force along x of a way so short that next to nothing slips."""
-    start, way = contact.full_slip(1.0, way=0.0), 1e-4 * MU
-    end = contact.step(start, 1.0, np.array([way, 0.0]), 1.0)
-    return float((contact.forces(end.tractions) - contact.forces(start.tractions))[X]) / way
-
-
 def test_the_stiffness_before_slip_is_mindlins():
-    assert_allclose(stiffness(paraboloid(41, 0.3)), 2 * paraboloid(41, 0.3).half_space.G_star, rtol=0.02)  # 2 G* a
+    """Of a way so short that next to nothing slips."""
+    contact, way = paraboloid(41, 0.3), 1e-4 * MU
+    start = contact.full_slip(1.0, way=0.0)
+    end = contact.step(start, 1.0, np.array([way, 0.0]), 1.0)
+    force = contact.forces(end.tractions - start.tractions)[X]
+    assert_allclose(force / way, 2 * contact.half_space.G_star, rtol=0.02)  # 2 G* a
 
 
 def test_paths_turned_by_ninety_degrees_turn_the_force():
@@ -77,12 +64,14 @@ def test_the_path_by_another_way():
         return body.coefficients(i, j)[rows].reshape(n * n, n * n)
 
     C = np.block([[matrix(X, X), matrix(X, Y)], [matrix(Y, X), matrix(Y, Y)]])
-    _, _, ends = turned(contact, 0.5, 0.5, steps=3)
+    step = 0.5 * MU * body.E_star / body.G_star / 3
+    moves = 3 * [(step, 0.0)] + 3 * [(0.0, step)]  # along x, then along y
+    way = np.cumsum([(0.0, 0.0), *moves], axis=0).T
+    ends = list(contact.march(contact.full_slip(1.0, way=0.0), np.ones(7), way, 1.0))
     p = ends[0].pressure.ravel()
     cells = np.flatnonzero(p > 0)
-    unit = MU * body.E_star / body.G_star / 3
     q = np.zeros(2 * n * n)
-    for end, moved in zip(ends, 3 * [(0.5 * unit, 0.0)] + 3 * [(0.0, 0.5 * unit)], strict=True):
+    for end, moved in zip(ends, moves, strict=True):
         asked = C @ q + np.repeat(moved, n * n)
         for _ in range(400):
             for k in cells:
