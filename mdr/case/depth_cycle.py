@@ -47,9 +47,9 @@ class Cycle(ArrayRecord):
         return cls(u_z0, du_z, omega, np.ones(1), np.zeros(1), -1.0, 1.0)
 
     @classmethod
-    def constant(cls, u_z0: float, omega: float) -> Cycle:
-        """u_z0 > 0 at all times; omega: of whatever else moves."""
-        return cls(u_z0, u_z0, omega, np.zeros(1), np.zeros(1), 0.0, 0.0)
+    def constant(cls, u_z0: float) -> Cycle:
+        """u_z0 > 0 at all times."""
+        return cls(u_z0, u_z0, 0.0, np.zeros(1), np.zeros(1), 0.0, 0.0)
 
     @classmethod
     def series(cls, u_z0: float, omega: float, cos: Array, sin: Array) -> Cycle:

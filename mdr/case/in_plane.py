@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.motion import amplitudes, fill_up
+from mdr.case.motion import amplitudes_field, fill_up
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite, not_negative
 from mdr.tools.fields import Record, facts
@@ -122,16 +122,10 @@ class InPlaneMotion(Shake):
     """
 
     omega: float = field(metadata=FREQUENCY)
-    x_cos: tuple[float, ...] = field(default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes))
-    x_sin: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=SAWTOOTH)
-    )
-    y_cos: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of cos(n omega t) across the pull", amplitudes)
-    )
-    y_sin: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of sin(n omega t) across the pull", amplitudes)
-    )
+    x_cos: tuple[float, ...] = amplitudes_field("amplitudes of cos(n omega t)")
+    x_sin: tuple[float, ...] = amplitudes_field("amplitudes of sin(n omega t)", example=SAWTOOTH)
+    y_cos: tuple[float, ...] = amplitudes_field("amplitudes of cos(n omega t) across the pull")
+    y_sin: tuple[float, ...] = amplitudes_field("amplitudes of sin(n omega t) across the pull")
     at: str = field(default="tool", metadata=PLACE)
 
     def __post_init__(self) -> None:

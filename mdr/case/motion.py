@@ -34,6 +34,11 @@ def amplitudes(name: str, values: Any, note: str = "") -> tuple[float, ...]:
     return tuple(finite(f"{name}[{n}]", value) for n, value in enumerate(values))
 
 
+def amplitudes_field(meaning: str, example: tuple[float, ...] | None = None) -> tuple[float, ...]:
+    """The field of a list of amplitudes [m], which may be left out."""
+    return field(default=(), metadata=facts("m", meaning, amplitudes, example=example))
+
+
 def fill_up(record: Any, *names: str) -> int:
     """Bring lists of amplitudes of a record that is being made to one length, with zeros, and drop those at the end of
     all; returns the length.
@@ -189,7 +194,7 @@ class ConstantDepth(Motion):
     @property
     def cycle(self) -> Cycle:
         """The depth at all times."""
-        return Cycle.constant(self.u_z0, self.omega)
+        return Cycle.constant(self.u_z0)
 
 
 @dataclass(frozen=True)
@@ -203,12 +208,8 @@ class PeriodicMotion(Motion):
 
     omega: float = field(metadata=FREQUENCY)
     u_z0: float = field(metadata=MEAN_DEPTH)
-    cos: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of cos(n omega t)", amplitudes, example=(2e-6, 5e-7))
-    )
-    sin: tuple[float, ...] = field(
-        default=(), metadata=facts("m", "amplitudes of sin(n omega t)", amplitudes, example=(0.0, 3e-7))
-    )
+    cos: tuple[float, ...] = amplitudes_field("amplitudes of cos(n omega t)", example=(2e-6, 5e-7))
+    sin: tuple[float, ...] = amplitudes_field("amplitudes of sin(n omega t)", example=(0.0, 3e-7))
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -100,7 +100,7 @@ def with_depth(case: SlidingContact, moving: bool = True) -> SlidingContact:
     if moving and isinstance(load, LoadOscillation):
         depth = depth_under_load(case.indenter, case.material, load)
     elif moving:
-        depth = Cycle.constant(rest, load.omega)
+        depth = Cycle.constant(rest)
     return replace(case, oscillation=DepthUnderLoad(load, case.indenter, case.material, rest, depth))
 
 

@@ -77,7 +77,7 @@ def test_a_spring_at_a_turn_of_the_edge_touches_as_often_as_it_leaves(T):
 
 
 def test_a_constant_depth_has_a_still_edge():
-    assert_allclose(ContactEdge.of(Cycle.constant(1.0, 1.0), 0.5).gap(PHASE), 0, atol=0)
+    assert_allclose(ContactEdge.of(Cycle.constant(1.0), 0.5).gap(PHASE), 0, atol=0)
 
 
 # --- under one cosine ---
