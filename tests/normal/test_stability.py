@@ -1,4 +1,4 @@
-"""Floquet multipliers of a depth under a load: Hill's equation integrated, and a march that is pushed."""
+"""Floquet multipliers of a depth under a load: Hill's equation integrated, and a march of the depth that is pushed."""
 
 import numpy as np
 import pytest
@@ -59,17 +59,23 @@ def test_elastic_deviations_obey_hills_equation(shape, ratio, share, stable):
         ("flat", 4.0, 0.9, 0.3, 9),
         ("paraboloid", 1.1, 1.5, 0.3, 9),
         ("flat", 0.25, 0.9, 0.3, 4),  # what is left after more is rounding
+        ("flat", 0.25, 1.3, 0.9, 3),
     ],
 )
-def test_a_march_that_is_pushed_leaves_its_orbit_as_the_multiplier_says(shape, ratio, share, T, n_periods):
+def test_a_march_stays_on_the_depth_and_leaves_it_if_pushed_as_the_multiplier_says(shape, ratio, share, T, n_periods):
     material = mdr.KelvinVoigt(3e6, 0.5, T / OMEGA)
     case, load, cycle = depth_under(shape, material, ratio, share)
-    grown = pushed(case, load, cycle, n_periods)
+    u_z, grown = marched(case, load, cycle, n_periods)
+    z, _ = cycle.over_a_period(u_z.size)
+    # from where it is unstable, with a multiplier of 1.6, an error of 1e-5 has grown to 7e-4
+    assert_allclose(u_z, cycle.u_z0 + cycle.unit * z[1:], rtol=0, atol=1e-3 * cycle.unit)
     assert_allclose(floquet_multiplier(case.indenter, material, load, cycle), grown[-1] / grown[-2], rtol=0.02)
 
 
-def pushed(case, load, cycle, n_periods, n_springs=32, n_steps=1024, push=1e-7):
-    """Distance between the march of a Kelvin contact under its load and that of one pushed, at the end of periods."""
+def marched(case, load, cycle, n_periods, n_springs=32, n_steps=1024, push=1e-7):
+    """Depth of a Kelvin contact under its load over the last period, and how far one that was pushed is from it at the
+    end of each.
+    """
     material, T, h = case.material, case.T, 2 * np.pi / n_steps
     edge = case.indenter.contact_radius(case.u_z_max)
     gap = np.asarray(case.indenter.profile_1d((np.arange(n_springs) + 0.5) / n_springs * edge))
@@ -80,7 +86,7 @@ def pushed(case, load, cycle, n_periods, n_springs=32, n_steps=1024, push=1e-7):
         s = np.maximum(s * np.exp(-h / T), depth - gap)
     u, v = np.full(2, cycle.u_z0 + cycle.unit * z[0]), np.full(2, cycle.unit * z_dot[0])
     u[1] += push * cycle.unit
-    s, out = np.array([s, s]), []
+    s, u_z, apart = np.array([s, s]), [], []
     for i in range(n_periods * n_steps):
         F_z, free, end = load.F_z0 + load.dF_z * np.cos((i + 0.5) * h), s * np.exp(-h / T), u + h * v
         for _ in range(6):  # Newton, for the depth at the end of a step of which the force is that of its middle
@@ -90,6 +96,6 @@ def pushed(case, load, cycle, n_periods, n_springs=32, n_steps=1024, push=1e-7):
             slope = 1 + h**2 / (2 * M) * dk * presses.sum(axis=1) * (0.5 + T / h)
             end = end - (end - u - h * v - h**2 / (2 * M) * (F_z - F_N)) / slope
         u, v, s = end, 2 * (end - u) / h - v, s_end
-        if (i + 1) % n_steps == 0:
-            out.append(np.hypot(u[1] - u[0], v[1] - v[0]))
-    return np.array(out)
+        u_z.append(u[0])
+        apart.append(np.hypot(u[1] - u[0], v[1] - v[0]))
+    return np.array(u_z[-n_steps:]), apart[n_steps - 1 :: n_steps]
