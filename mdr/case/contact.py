@@ -183,8 +183,6 @@ class SlidingContact(Record, Summarised):
     @property
     def cycle(self) -> Cycle:
         """The depth over one period."""
-        if self.shake is None:
-            return self.oscillation.cycle
         return self.oscillation.cycle.repeated(max(self.repeats[0], 1), self.omega)
 
     @property
