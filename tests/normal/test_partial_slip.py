@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from twins.path import followed
 
 import mdr
 from mdr.files.examples import SHAPES
@@ -18,24 +19,14 @@ del ALL["ConcavePunch"]  # a ring of it sticks, which is refused
 FULL_SLIP = MU_0 * BODY.mindlin_ratio * DEPTH  #: displacement from which every spring slips
 
 
-def spring_by_spring(indenter, path, n=4000):
-    """Tangential force along a path of u_x, by the return mapping of n elastic springs in cells of equal depth.
-
-    A cell between two depths g carries int (d - g) dx = [F_N(d - g_0) - F_N(d - g_1)]/2 E* plus what is stiff there, so
-    that no quadrature comes in: springs of stiffness k_i = G* dx stand at the mean depth of their cells.
-    """
+def spring_by_spring(indenter, u_x, n=4000):
+    """Tangential force [N] along a rising u_x, by n elastic springs in equal cells of x, at their mean depths."""
     a = float(indenter.contact_radius(DEPTH))
     x = a * np.linspace(0, 1, n + 1)
-    area = np.asarray(indenter.profile_area(x))
-    dx = np.diff(x)
-    limit = MU_0 * BODY.E_star * 2 * dx * np.maximum(DEPTH - np.diff(area) / dx, 0)
-    k = BODY.G_star * 2 * dx
-    f, u, forces = np.zeros(n), 0.0, []
-    for u_new in path:
-        f = np.clip(f + k * (u_new - u), -limit, limit)
-        u = u_new
-        forces.append(f.sum())
-    return np.array(forces)
+    gap = np.diff(np.asarray(indenter.profile_area(x))) / np.diff(x)
+    path = np.stack([u_x, 0 * u_x, np.full(u_x.shape, DEPTH)], axis=1)
+    forces, _ = followed(gap, u_x, path, MU_0 * BODY.mindlin_ratio, parts=1)
+    return MU_0 * 2 * a * BODY.E_star * forces[:, 0]
 
 
 @pytest.mark.parametrize("shape", ALL)
