@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import contact
 from numpy.testing import assert_allclose
 
 import mdr
@@ -164,26 +165,23 @@ def sensible(rng):
         a, alpha, mu_0 = 10 ** rng.uniform(-5, -2.3), 10 ** rng.uniform(-2, 0.3), 10 ** rng.uniform(-1.7, 0.2)
         omega, nu = 2 * np.pi * 10 ** rng.uniform(0.7, 4.6), (0.5, 0.4, 0.3)[kind]
         T = rng.choice([0.0, 10 ** rng.uniform(-2, 0.3)])
-        material = mdr.KelvinVoigt(E, nu, T / omega) if T else mdr.Elastic(E, nu)
+        of_body = ()  # a rigid pull
+        if rng.integers(2):
+            k, ratio, zeta = 10 ** rng.uniform(-3, 2), 10 ** rng.uniform(-1.5, 1), 10 ** rng.uniform(-2, 0)
+            of_body = (k, ratio, 2 * zeta * k / ratio) if rng.integers(2) else (k, np.inf)
         shape = (mdr.Paraboloid(a / slope), mdr.Cone(np.arctan(slope)), mdr.FlatPunch(a))[rng.integers(3)]
         depth = float(shape.profile_1d(a)) if not isinstance(shape, mdr.FlatPunch) else slope * a
         waves = 2 * np.pi / omega * np.sqrt(E / 3e3)
         g = alpha * depth * omega**2 / 9.81
         if waves < 20 * a or g > 1e5 or a / slope > 0.5 or depth * min(alpha, 1) < 1e-9:
             continue
-        force, stiffness = float(shape.force(depth, material.E_star)), float(shape.stiffness(depth, material.G_star))
-        pull = mdr.RigidPull()
-        if rng.integers(2):
-            k_x, m = stiffness * 10 ** rng.uniform(-3, 2), 0.0
-            if rng.integers(2):
-                m = k_x / (omega * 10 ** rng.uniform(-1.5, 1)) ** 2
-            if 9.81 * m > 1e3 * force:
-                continue
-            pull = mdr.SpringPull(k_x, m, 2 * 10 ** rng.uniform(-2, 0) * np.sqrt(k_x * m))
-        motion = mdr.NormalOscillation(depth, alpha * depth, omega)
+        case = contact(shape, 1 / alpha, T, *of_body, du_z=alpha * depth, omega=omega, mu_0=mu_0, nu=nu, E=E)
+        force = float(shape.force(depth, case.material.E_star))
+        if 9.81 * case.pull.coefficients[0] > 1e3 * force:
+            continue
         if alpha < 0.9 and rng.integers(2):
-            motion = mdr.LoadOscillation(force, min(alpha, 0.5) * force, omega)
-        return mdr.SlidingContact(shape, material, mu_0, motion, pull)
+            case = replace(case, oscillation=mdr.LoadOscillation(force, min(alpha, 0.5) * force, omega))
+        return case
 
 
 def test_nothing_is_said_of_five_hundred_sensible_contacts():
