@@ -61,9 +61,7 @@ def test_a_coarser_run_across_the_pull_is_off_by_less_than_its_error():
     assert abs(coarse.cof - fine.cof) < coarse.cof_error
 
 
-def test_across_the_pull_the_other_way_is_the_mirror_image(found):
-    back = slide(ACROSS, -0.3 * UNIT, **FEW)
-    assert_allclose(back.cof, -found.cof, atol=found.cycle_error + back.cycle_error + 1e-6)
+def test_a_shake_across_the_pull_lowers_friction_and_drives_nothing(found):
     assert 0 < found.cof < 0.3
     assert abs(slide(ACROSS, 0, start="rest", n_periods=1, **FEW).cof) < 1e-6  # by symmetry
 
@@ -134,6 +132,7 @@ def test_the_fields_of_the_last_period_have_its_forces(found):
 def test_a_curve_is_made_of_runs(found, tmp_path):
     curve = mdr.half_space.curve(ACROSS, [0.3 * UNIT, -0.3 * UNIT, 0.9 * UNIT], n_periods=2, **FEW)
     assert curve.settled.shape == (3,)
+    # the other way is the mirror image
     assert_allclose(curve.cof[:2], [found.cof, -found.cof], atol=curve.cycle_error[:2].max() + SETTLED)
     assert curve.cof[2] > curve.cof[0] > 0
     assert_allclose(curve.cof_error, curve.grid_error + curve.step_error + curve.cycle_error)
