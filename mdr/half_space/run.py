@@ -364,23 +364,24 @@ class Ends(NamedTuple):
 def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: Ends) -> tuple[HalfSpaceRun, Ends]:
     """A run that begins where another one at a near velocity ended, with two companions, and where they ended."""
     fine = last_period(case, v_0, settings, near.fine)
-    coarser = {
-        "wide": replace(settings, cells=(settings.cells + 1) // 2),
-        "halved": replace(settings, steps=settings.steps // 2),
-    }
-    begin = {"wide": near.wide, "halved": fine.steps[-1] if settings.settled else near.halved}
-    least = _least(case, settings)
-    told, ends = dict.fromkeys(coarser, Companion(2 * full_cof(case))), near._replace(fine=fine.steps[-1])
-    for name, other in coarser.items():
+    end, (least_of_cells, least_of_steps) = fine.steps[-1], _least(case, settings)
+
+    def beside(coarser: Settings, start: Step | None, least: float) -> tuple[Companion, Step | None]:
+        """What a coarser run tells of the error, and where it ended."""
         if time_is_over():
-            break
-        found = last_period(case, v_0, other, begin[name], arrived=begin[name] is fine.steps[-1])
-        ends = ends._replace(**{name: found.steps[-1]})
-        told[name] = Companion(_apart(fine.friction, found.friction), 2.0, least[name])
-    return _record(case, v_0, settings, fine, told["wide"], told["halved"]), ends
+            return Companion(2 * full_cof(case)), start
+        found = last_period(case, v_0, coarser, start, arrived=start is end)
+        one, other = fine.friction, found.friction
+        apart = max(abs(one.cof - other.cof), abs(one.cof_y - other.cof_y))
+        return Companion(apart, 2.0, least), found.steps[-1]
+
+    grid, wide = beside(replace(settings, cells=(settings.cells + 1) // 2), near.wide, least_of_cells)
+    begin = end if settings.settled else near.halved
+    step, halved = beside(replace(settings, steps=settings.steps // 2), begin, least_of_steps)
+    return _record(case, v_0, settings, fine, grid, step), Ends(end, halved, wide)
 
 
-def _least(case: SlidingContact, settings: Settings) -> dict[str, float]:
+def _least(case: SlidingContact, settings: Settings) -> tuple[float, float]:
     """What the errors of cells and steps are not called smaller than [-].
 
     Pressure rises from the edge of contact like a square root, so that a cell there carries (1/cells)^(3/2). An instant
@@ -390,11 +391,7 @@ def _least(case: SlidingContact, settings: Settings) -> dict[str, float]:
     lag = case.T / np.hypot(1.0, case.T)
     by_steps = 1.5 / settings.steps**2 + 0.7 * lag / settings.steps
     full = full_cof(case)
-    return {"wide": 0.12 * full / settings.cells**1.5, "halved": by_steps * full}
-
-
-def _apart(one: Friction, other: Friction) -> float:
-    return max(abs(one.cof - other.cof), abs(one.cof_y - other.cof_y))
+    return 0.12 * full / settings.cells**1.5, by_steps * full
 
 
 def _record(
