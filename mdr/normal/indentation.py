@@ -165,7 +165,7 @@ def indent(
 def _from_depth(indenter: Indenter, material: Material, t: Array, u_z: Array, n: int, record: bool) -> Indentation:
     deepest = float(u_z.max())
     if not deepest > 0:
-        return _untouched(indenter, material, t, u_z, n, record)
+        return _untouched(indenter, material, t, u_z, record)
     indenter.contact_radius(deepest)  # a shape that does not reach so deep says so here
     springs = _Springs.of(indenter, material, deepest, np.clip(u_z[u_z > 0].min() / deepest, 1e-2, 0.1), n)
     u, dt = (u_z / deepest).tolist(), np.diff(t, prepend=t[0]).tolist()
@@ -185,7 +185,7 @@ def _from_depth(indenter: Indenter, material: Material, t: Array, u_z: Array, n:
 def _from_force(indenter: Indenter, material: Material, t: Array, F_z: Array, n: int, record: bool) -> Indentation:
     most = F_z.max(keepdims=True)
     if not most > 0:
-        return _untouched(indenter, material, t, F_z, n, record)
+        return _untouched(indenter, material, t, F_z, record)
     compliance = float(material.creep_compliance(t[-1] - t[0])) or 1 / material.E_star  # a dashpot takes no jump
     try:
         reach = float(static_depths(indenter, 1 / compliance, most)[0])
@@ -425,7 +425,7 @@ def _history(name: str, values: ArrayLike | None, t: Array, unit: str) -> Array:
     return history
 
 
-def _untouched(indenter: Indenter, material: Material, t: Array, u_z: Array, n: int, record: bool) -> Indentation:
+def _untouched(indenter: Indenter, material: Material, t: Array, u_z: Array, record: bool) -> Indentation:
     """The outcome without contact: u_z never above zero, or no force."""
     zero = np.zeros(t.size)
     kept = {"x": np.zeros(1), "s": np.zeros((t.size, 1)), "q_z": np.zeros((t.size, 1))} if record else {}

@@ -163,7 +163,7 @@ def mean_area(case: SlidingContact) -> float:
     return 0.5 * _integral(case, lambda phase: contact_radius(case, phase) ** 2)
 
 
-def edge_marks(case: SlidingContact, joints: bool = False) -> tuple[float, ...]:
+def edge_marks(case: SlidingContact, joints: bool) -> tuple[float, ...]:
     """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth; with joints
     also those at which pieces of a curve meet, where it is as smooth as a spline.
     """

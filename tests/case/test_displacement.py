@@ -11,9 +11,9 @@ import mdr
 from mdr.case.displacement import inner_part
 
 
-def burst(t, f=100.0, width=0.05):
+def burst(t, f=100.0):
     """A tone under a Gaussian, and its second derivative."""
-    x, w = t - 1.0, 2 * np.pi * f
+    x, w, width = t - 1.0, 2 * np.pi * f, 0.05
     u = 2e-6 * np.exp(-((x / width) ** 2) / 2) * np.exp(1j * w * x)
     return u.real, (u * ((1j * w - x / width**2) ** 2 - 1 / width**2)).real
 

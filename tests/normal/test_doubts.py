@@ -200,7 +200,7 @@ def test_an_unstable_mass_under_its_load_is_warned_of_where_its_depth_is_asked_f
 
 
 def test_a_mass_that_bounces_under_its_load_is_warned_of():
-    case = beside_resonance(2.0, 1.5, tau=1e-3)
+    case = beside_resonance(2.0, 1.5, mdr.Paraboloid(5e-3), 1e-3)
     with pytest.warns(mdr.PlausibilityWarning, match="leaves the surface in every period"):
         mdr.full_slip_critical_velocity(case)
 
@@ -253,9 +253,8 @@ def test_the_slope_at_the_edge_is_that_of_the_shape(shape):
     assert_allclose(slope, abs(f[0] - f[1]) / (r[0] - r[1]), rtol=1e-3, atol=1e-6)  # rounding of f over 2e-6 a
 
 
-def beside_resonance(detuning, share, shape=None, tau=0.0):
+def beside_resonance(detuning, share, shape, tau):
     """m_z omega² = detuning times the stiffness of the contact."""
-    shape = shape or mdr.Paraboloid(5e-3)
     material = mdr.KelvinVoigt(3e6, 0.5, tau) if tau else mdr.Elastic(3e6, 0.5)
     F_z0, k_zc = (float(of(20e-6, material.E_star)) for of in (shape.force, shape.stiffness))
     load = mdr.LoadOscillation(F_z0, share * F_z0, 300.0, detuning * k_zc / 300.0**2)

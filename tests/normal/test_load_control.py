@@ -19,9 +19,9 @@ SOLID = mdr.StandardLinearSolid(3e6, 6e6, 2e-3, 0.4)
 PRONY = mdr.Prony(3e6, [(2e6, 1e-4), (4e6, 3e-3), (1e6, 0.1)], 0.4, 2e-4)
 
 
-def under_load(shape, material, share, m_z=0.0, pull=None, depth=6e-6):
+def under_load(shape, material, share, m_z=0.0, pull=None):
     indenter = SHAPES[shape][0]
-    F_z0 = float(indenter.force(depth, material.E_star))
+    F_z0 = float(indenter.force(6e-6, material.E_star))
     motion = mdr.LoadOscillation(F_z0, share * F_z0, OMEGA, m_z)
     return mdr.resolved(mdr.SlidingContact(indenter, material, 0.4, motion, pull or mdr.RigidPull()))
 
