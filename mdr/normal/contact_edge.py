@@ -141,9 +141,8 @@ class ContactEdge:
         if not tops.size:
             return [Piece(0.0, 2 * np.pi)]
         first = float(tops[np.argmax(harmonic_sum(harmonics, tops))])
-        ends = first + np.mod(
-            turns(harmonics * (1 + 1j * self.T * np.arange(1, harmonics.size + 1))) - first, 2 * np.pi
-        )
+        of_R = harmonics * (1 + 1j * self.T * np.arange(1, harmonics.size + 1))
+        ends = first + np.mod(turns(of_R) - first, 2 * np.pi)
         ends = np.append(np.sort(ends[ends > first]), first + 2 * np.pi)
         if self.T == 0:
             return [Piece(low, high) for low, high in pairwise([first, *ends.tolist()])]

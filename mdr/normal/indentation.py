@@ -253,9 +253,8 @@ def _depths(
         a = springs.force(s, u, v)[1] if F > 0 else 0.0
         depth[k], radius[k], before = u, a, F
         if k in record:
-            seen.append(
-                (s, u if F > 0 else -np.inf, springs.rate_under(F, off, s, u, v, a) if F > 0 and T > 0 else 0.0)
-            )
+            rate = springs.rate_under(F, off, s, u, v, a) if F > 0 and T > 0 else 0.0
+            seen.append((s, u if F > 0 else -np.inf, rate))
     return depth, radius, seen
 
 

@@ -73,14 +73,13 @@ def normal_force_rate(case: SlidingContact, phase: Array, slope: Callable[[Array
     """dF_N/dphase [N], with 2 E* a(g_c) [d(u_z + tau u_z') + (u_z - g_c + tau u_z') d ln a(g_c)]: only the contact
     radius has no derivative in closed form, which `slope` answers from its values at the phases.
     """
-    n, cycle = np.arange(1, case.cycle.cos.size + 1), case.cycle
     if case.oscillation.load is not None:
         F_n = load_harmonics(case)[1]
         return harmonic_sum(1j * np.arange(1, F_n.size + 1) * F_n, phase)
+    n, cycle = np.arange(1, case.cycle.cos.size + 1), case.cycle
     _, k_zc, above = _without_arms(case, phase)
-    rate = k_zc * cycle.unit * harmonic_sum(1j * n * (1 + 1j * n * case.T) * cycle.harmonics, phase) + above * slope(
-        k_zc
-    )
+    of_depth = k_zc * cycle.unit * harmonic_sum(1j * n * (1 + 1j * n * case.T) * cycle.harmonics, phase)
+    rate = of_depth + above * slope(k_zc)
     return np.asarray(rate + _of_arms(case)(phase, 1) if case.material.contact_arms else rate)
 
 

@@ -35,9 +35,8 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
     A deviation grows by this factor in a period: above 1 the depth is unstable.
     """
     rheology, h = Rheology.periodic(material, load.omega), 2 * np.pi / N_STEPS
-    _, gap, width, n_core = nodes(
-        shape, Depths.of(cycle, cycle.kept_gap(rheology.response)), 32
-    )  # that touch and leave
+    depths = Depths.of(cycle, cycle.kept_gap(rheology.response))
+    _, gap, width, n_core = nodes(shape, depths, 32)  # that touch and leave
     n_kept = min(n_core, 1)  # springs that press throughout are one
     width = np.concatenate([[width[:n_core].sum()][:n_kept], width[n_core:]])
     band = followed_springs(rheology, gap[n_core:] / cycle.unit, width[n_kept:], cycle, N_STEPS)
@@ -61,9 +60,8 @@ def floquet_multiplier(shape: Indenter, material: Material, load: LoadOscillatio
         B = 0.5 * static.sum() * v + np.concatenate([[-lag], of_arms]) @ (rate @ x)
         end = (v + h * p - h**2 / (2 * M) * B) / (1 + h**2 * A / (2 * M))
         p, v = 2 * (end - v) / h - p, end
-        held = np.concatenate(
-            [np.broadcast_to(v, x[:1].shape), decay[:, None, None] * x[1:] + gain[:, None, None] * (v - x[0])]
-        )
+        arms = decay[:, None, None] * x[1:] + gain[:, None, None] * (v - x[0])
+        held = np.concatenate([np.broadcast_to(v, x[:1].shape), arms])
         x = np.where(after[:, None], held, np.tensordot(free, x, 1))
     return float(np.abs(np.linalg.eigvals(np.concatenate([[v, p], *x]))).max())
 

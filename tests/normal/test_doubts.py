@@ -99,9 +99,7 @@ SOUND = {
     "cone": mdr.SlidingContact(
         mdr.Cone(0.0127), mdr.Elastic(3e6, 0.5), 0.4, mdr.NormalOscillation(30e-6, 10e-6, 502.7)
     ),
-    "steel": ball(
-        5e-3, mdr.Elastic(2.1e11, 0.3), 0.15, mdr.LoadOscillation(20.0, 5.0, 125663.7), mdr.SpringPull(1e5, 0.2)
-    ),
+    "steel": ball(5e-3, STEEL, 0.15, mdr.LoadOscillation(20.0, 5.0, 125663.7), mdr.SpringPull(1e5, 0.2)),
     "punch": mdr.SlidingContact(
         mdr.FlatPunch(2e-3), mdr.KelvinVoigt(2e9, 0.4, 1e-5), 0.3, mdr.NormalOscillation(1e-6, 2e-7, 3141.6)
     ),
