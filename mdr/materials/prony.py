@@ -192,8 +192,10 @@ class Prony(_WithArms):
         """
         from mdr.materials import prony_fit
 
-        body = cls(*prony_fit.to_data(omega, storage, loss, n_arms), nu=nu)
-        prony_fit.warn_of_misfit(body, omega, storage, loss, n_arms)
+        data = prony_fit.data_of(omega, storage, loss)
+        E_inf, arms, _ = prony_fit.to_data(*data, n_arms)
+        body = cls(E_inf, arms, nu)
+        prony_fit.warn_of_misfit(body, *data, n_arms)
         return body
 
     @classmethod
@@ -407,4 +409,4 @@ class Prony(_WithArms):
         """
         from mdr.materials import prony_fit
 
-        return prony_fit.misfit(self, omega, storage, loss)
+        return float(prony_fit.misfits(self, *prony_fit.data_of(omega, storage, loss)).max())

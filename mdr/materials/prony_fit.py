@@ -24,21 +24,10 @@ ONE = 0.01  #: relative difference of frequencies that are one: no passive modul
 MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
 
 
-def to_data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int | None) -> tuple[float, Pairs]:
-    """E_inf [Pa] and arms closest to measured moduli."""
-    omega, modulus = _data(omega, storage, loss)
-    if n_arms is None:
-        n_arms = max(1, min(usual_arms(omega), omega.size // 2))
-    n_arms = count("n_arms", n_arms, 1)
-    times = _times(omega, n_arms)
-    E_inf, moduli = _moduli(omega, modulus, times)
-    return E_inf, arms_of(moduli, times)
-
-
-def _times(omega: Array, n_arms: int) -> Array:
-    """Relaxation times [s] of so many arms, spread over the frequencies."""
-    low, high = omega.min(), omega.max()
-    return np.asarray(1 / (np.geomspace(low, high, n_arms) if n_arms > 1 else np.array([np.sqrt(low * high)])))
+def to_data(omega: Array, modulus: Any, n_arms: int | None) -> tuple[float, Pairs, float]:
+    """E_inf [Pa] and arms closest to measured moduli, and the greatest relative deviation that they leave."""
+    n_arms = number_of_arms(omega, omega.size, n_arms)
+    return _closest(omega, modulus, 1 / spread(omega.min(), omega.max(), n_arms))
 
 
 def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Pairs]:
@@ -53,13 +42,12 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
     # arms reach beyond the range by a margin, for the rest of a power law
     for n_arms, margin in product(range(2, MOST_ARMS + 1), (3.0, 10.0, 100.0, 1000.0)):
         times = np.geomspace(1 / (margin * high), min(margin, 10) / low, n_arms)
-        E_inf, moduli = _moduli(dense, wanted, times)
+        E_inf, arms, missed = _closest(dense, wanted, times)
         if E_inf == 0:
             continue  # flows in the end
-        missed = float(np.max(np.abs(arm(np.outer(dense, times)) @ moduli + E_inf - wanted) / np.abs(wanted)))
         least = min(least, missed)
         if missed <= error:
-            return E_inf, arms_of(moduli, times)
+            return E_inf, arms
     raise ValueError(
         f"error = {error:g} of the power law is not reached by {MOST_ARMS} arms, only {least:.2g}: "
         "raise error or narrow the range omega"
@@ -71,23 +59,21 @@ def arms_of(moduli: Array, times: Array) -> Pairs:
     return tuple((E, time) for E, time in zip(moduli.tolist(), times.tolist(), strict=True) if E > 0)
 
 
-def misfit(material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
-    """Greatest relative deviation from measured moduli."""
-    return float(_misfits(material, *_data(omega, storage, loss)).max())
+def misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
+    """Relative deviations of a body from measured moduli."""
+    own = np.asarray(material.dynamic_modulus(omega)) * (1 - material.nu**2)
+    return np.asarray(np.abs(own - modulus) / np.abs(modulus))
 
 
-def warn_of_misfit(
-    material: OneBody, omega: ArrayLike, storage: ArrayLike, loss: ArrayLike, n_arms: int | None
-) -> None:
+def warn_of_misfit(material: OneBody, omega: Array, modulus: Any, n_arms: int | None) -> None:
     """Warn where a fitted body misses the data by more than they are good for, with what may help."""
-    omega, modulus = _data(omega, storage, loss)
-    missed = _misfits(material, omega, modulus)
+    missed = misfits(material, omega, modulus)
     k, usual = int(np.argmax(missed)), usual_arms(omega)
     if missed[k] <= TOLD:
         return
     if twice(omega, modulus).size:
         way_out = "frequencies repeat with other moduli: give one temperature, mdr.read_moduli(path, temperature=20)"
-    elif (n_arms or omega.size // 2) < usual and _misfit_with(usual, omega, modulus) < missed[k] / 2:
+    elif (n_arms or omega.size // 2) < usual and to_data(omega, modulus, usual)[2] < missed[k] / 2:
         way_out = f"n_arms={usual} may come nearer"
     else:
         way_out = "no arms have such moduli at one temperature: is a unit wrong, or a column another quantity?"
@@ -95,13 +81,6 @@ def warn_of_misfit(
         f"the body misses the moduli by {missed[k]:.0%} at {omega[k]:.4g} rad/s ({omega[k] / (2 * np.pi):.4g} Hz); "
         f"noise alone is hardly more than {TOLD:.0%}: {way_out}"
     )
-
-
-def _misfit_with(n_arms: int, omega: Array, modulus: Any) -> float:
-    """Greatest relative deviation of so many arms."""
-    times = _times(omega, n_arms)
-    E_inf, moduli = _moduli(omega, modulus, times)
-    return float(np.max(np.abs(E_inf + arm(np.outer(omega, times)) @ moduli - modulus) / np.abs(modulus)))
 
 
 def twice(omega: Array, modulus: Any) -> Array:
@@ -112,24 +91,33 @@ def twice(omega: Array, modulus: Any) -> Array:
     return np.asarray(order[:-1][(np.diff(omega) <= ONE * omega[:-1]) & differ])
 
 
-def _misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
-    own = np.asarray(material.dynamic_modulus(omega)) * (1 - material.nu**2)
-    return np.asarray(np.abs(own - modulus) / np.abs(modulus))
+def usual_arms(places: Array) -> int:
+    """Three a decade, of times or frequencies."""
+    return round(3.0 * float(np.log10(places.max() / places.min()))) + 1
 
 
-def usual_arms(omega: Array) -> int:
-    """Three a decade."""
-    return round(3.0 * float(np.log10(omega.max() / omega.min()))) + 1
+def number_of_arms(places: Array, n_data: int, n_arms: int | None) -> int:
+    """As many as are asked for; None: the usual number, but no more than half the data can tell."""
+    if n_arms is None:
+        n_arms = max(1, min(usual_arms(places), n_data // 2))
+    return count("n_arms", n_arms, 1)
 
 
-def _moduli(omega: Array, modulus: Any, times: Array) -> tuple[float, Array]:
-    """E_inf and arm moduli, non-negative, of least relative deviation."""
-    weight = 1 / np.abs(modulus)
-    columns = np.column_stack([np.ones(omega.size), arm(np.outer(omega, times))]) * weight[:, None]
+def spread(first: float, last: float, n: int) -> Array:
+    """So many times or frequencies, even in log time; a single one is in the middle."""
+    return np.geomspace(first, last, n) if n > 1 else np.array([np.sqrt(first * last)])
+
+
+def _closest(omega: Array, modulus: Any, times: Array) -> tuple[float, Pairs, float]:
+    """E_inf and arms of these times, non-negative, of least relative deviation, and the greatest that is left."""
+    weight, of_arms = 1 / np.abs(modulus), arm(np.outer(omega, times))
+    columns = np.column_stack([np.ones(omega.size), of_arms]) * weight[:, None]
     target = modulus * weight
     rows, wanted = (np.concatenate([one.real, one.imag]) for one in (columns, target))
     found = least_squares(rows, wanted)
-    return float(found[0]), found[1:]
+    E_inf, moduli = float(found[0]), found[1:]
+    missed = np.max(np.abs(of_arms @ moduli + E_inf - modulus) / np.abs(modulus))
+    return E_inf, arms_of(moduli, times), float(missed)
 
 
 def least_squares(rows: Array, wanted: Array) -> Array:
@@ -141,7 +129,8 @@ def least_squares(rows: Array, wanted: Array) -> Array:
     return np.asarray(found)
 
 
-def _data(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[Array, Any]:
+def data_of(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[Array, Any]:
+    """Frequencies [rad/s] and the complex moduli [Pa] that were measured at them."""
     omega = positive_array("omega", omega, "rad/s")
     storage, loss = positive_array("storage", storage, "Pa"), finite_array("loss", loss, "Pa")
     if np.any(loss < 0):

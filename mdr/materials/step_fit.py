@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.materials.base import OneBody
-from mdr.materials.prony_fit import TOLD, Pairs, arms_of, least_squares, usual_arms
+from mdr.materials.prony_fit import TOLD, Pairs, arms_of, least_squares, number_of_arms, spread
 from mdr.tools.arrays import Array
-from mdr.tools.checks import count, finite_array, positive_array
+from mdr.tools.checks import finite_array, positive_array
 from mdr.tools.secular import secular_zeros
 from mdr.tools.warned import warn_outside
 
@@ -70,9 +70,6 @@ def warn_of_misfit(body: OneBody, t: ArrayLike, wanted: ArrayLike, is_creep: boo
 
 
 def _times(t: Array, n_arms: int | None) -> Array:
-    """Times of arms, slowest first: three a decade, but no more than half the data can tell."""
-    low, high = float(t[t > 0].min()), float(t.max())
-    if n_arms is None:
-        n_arms = max(1, min(usual_arms(t[t > 0]), t.size // 2))
-    n_arms = count("n_arms", n_arms, 1)
-    return np.geomspace(high, low, n_arms) if n_arms > 1 else np.array([np.sqrt(low * high)])
+    """Times of arms, slowest first, over the times behind the step."""
+    after = t[t > 0]
+    return spread(after.max(), after.min(), number_of_arms(after, t.size, n_arms))
