@@ -5,6 +5,7 @@ is smooth: its polynomial through N_NODES Chebyshev points is good to 5.8**-22 =
 weights at these points. The pieces near to x are left to whom they concern.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -21,30 +22,33 @@ Numbers = NDArray[np.intp]
 
 
 class Level(NamedTuple):
-    """Groups of one size, (n_groups,) from the axis outwards."""
+    """Groups of one size, (n_groups,) from the axis outwards; of the lowest level, the pieces."""
 
     low: Array  #: where each begins [m]
     high: Array
-    nodes: Array  #: (n_groups, N_NODES) [m]
-    weights: Array  #: of each h at these, (n_h, n_groups, N_NODES)
+    nodes: Array  #: (n_groups, n_nodes) [m]
+    weights: Array  #: of each h at these, (n_h, n_groups, n_nodes)
+    parts: int = 0  #: groups of the level below in each
 
 
 class ArcSums:
     """The sums for functions h, whose polynomials (n_h, n, degree + 1) count u = 0 … 1 between ``ends`` (n + 1,)."""
 
     def __init__(self, ends: Array, h: Array) -> None:
-        self.ends = ends
-        self.n = ends.size - 1
-        self.levels = [self._leaves(h)]
+        nodes, weights = GAUSS
+        u, width = (nodes + 1) / 2, np.diff(ends)[:, None]
+        values = h @ u ** np.arange(h.shape[2])[:, None] * (width * weights / 2)
+        pieces = Level(ends[:-1], ends[1:], ends[:-1, None] + width * u, values)
+        self.levels = [pieces, _grouped(pieces, LEAF)]
         while self.levels[-1].low.size > 1:
-            self.levels.append(_pairs(self.levels[-1]))
+            self.levels.append(_grouped(self.levels[-1], 2))
 
     def far(self, x: Array) -> tuple[Array, Numbers, Numbers]:
         """What is far from each x (n_x,), (n_h, n_x), and the pieces that are near: numbers of x, and of pieces."""
         total = np.zeros((self.levels[0].weights.shape[0], x.size))
         row = np.arange(x.size)
         group = np.zeros_like(row)
-        for i, level in reversed(list(enumerate(self.levels))):
+        for below, level in reversed(list(pairwise(self.levels))):
             low, high = level.low[group], level.high[group]
             away = x[row] - high >= high - low
             on, of = row[away], group[away]
@@ -52,31 +56,17 @@ class ArcSums:
             root = 1 / (np.sqrt(x[on, None] - r) * np.sqrt(x[on, None] + r))
             for sums, weights in zip(total, level.weights, strict=True):
                 sums += np.bincount(on, np.einsum("ij,ij->i", weights[of], root), x.size)
-            row, group = row[~away], group[~away]
-            if i > 0:
-                row, group = _within(row, group, 2, self.levels[i - 1].low, x)
-        return (total, *_within(row, group, LEAF, self.ends[:-1], x))
-
-    def _leaves(self, h: Array) -> Level:
-        """The smallest groups, summed piece by piece."""
-        first = np.arange(0, self.n, LEAF)
-        low, high = self.ends[first], self.ends[np.minimum(first + LEAF, self.n)]
-        nodes, weights = GAUSS
-        u, group = (nodes + 1) / 2, np.arange(self.n) // LEAF
-        width = np.diff(self.ends)[:, None]
-        values = h @ u ** np.arange(h.shape[2])[:, None] * (width * weights / 2)
-        shares = _shares(self.ends[:-1, None] + width * u, low[group], high[group])
-        sums = np.einsum("kig,igm->kim", values, shares)
-        return Level(low, high, _nodes(low, high), np.add.reduceat(sums, first, axis=1))
+            row, group = _within(row[~away], group[~away], level.parts, below.low, x)
+        return total, row, group
 
 
-def _pairs(below: Level) -> Level:
-    """Groups of two groups each; the last may have one."""
-    first = np.arange(0, below.low.size, 2)
+def _grouped(below: Level, parts: int) -> Level:
+    """Groups of so many groups of the level below each; the last may have fewer."""
+    first = np.arange(0, below.low.size, parts)
     low, high = below.low[first], np.maximum.reduceat(below.high, first)
-    of = np.arange(below.low.size) // 2
+    of = np.arange(below.low.size) // parts
     sums = np.einsum("kig,igm->kim", below.weights, _shares(below.nodes, low[of], high[of]))
-    return Level(low, high, _nodes(low, high), np.add.reduceat(sums, first, axis=1))
+    return Level(low, high, _nodes(low, high), np.add.reduceat(sums, first, axis=1), parts)
 
 
 def _nodes(low: Array, high: Array) -> Array:
