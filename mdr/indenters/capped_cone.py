@@ -4,8 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 from mdr.indenters.cone import FLANK
-from mdr.indenters.worn import Section, Worn
-from mdr.tools.fields import facts
+from mdr.indenters.worn import Section, Worn, centre
 
 
 @dataclass(frozen=True)
@@ -15,9 +14,7 @@ class CappedCone(Worn):
     cos φ = b/a; F_N = (4/3) E* a³/R while a <= b.
     """
 
-    b: float = field(
-        metadata=facts("m", "radius of the cap", note="radius of the cap in m; a Cone has none", example=3e-4)
-    )
+    b: float = field(metadata=centre("cap", "Cone", 3e-4))
     theta: float = field(metadata=FLANK)
 
     @property

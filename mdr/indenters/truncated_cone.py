@@ -4,8 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 from mdr.indenters.cone import FLANK
-from mdr.indenters.worn import Section, Worn
-from mdr.tools.fields import facts
+from mdr.indenters.worn import Section, Worn, centre
 
 
 @dataclass(frozen=True)
@@ -16,9 +15,7 @@ class TruncatedCone(Worn):
     as one rounding away.
     """
 
-    b: float = field(
-        metadata=facts("m", "radius of the face", note="radius of the face in m; a Cone has none", example=3e-4)
-    )
+    b: float = field(metadata=centre("face", "Cone", 3e-4))
     theta: float = field(metadata=FLANK)
 
     @property

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from mdr.indenters.worn import Section, Worn
+from mdr.indenters.worn import Section, Worn, centre
 from mdr.tools.fields import facts
 
 
@@ -14,9 +14,7 @@ class TruncatedParaboloid(Worn):
     as one rounding away.
     """
 
-    b: float = field(
-        metadata=facts("m", "radius of the face", note="radius of the face in m; a Paraboloid has none", example=5e-4)
-    )
+    b: float = field(metadata=centre("face", "Paraboloid", 5e-4))
     R: float = field(metadata=facts("m", "radius of curvature", example=0.04))
 
     @property

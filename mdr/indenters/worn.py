@@ -19,6 +19,13 @@ import numpy as np
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import angle, angle_less_sine, leg, leg_short
 from mdr.tools.arrays import Array
+from mdr.tools.fields import Facts, facts
+
+
+def centre(what: str, without: str, example: float) -> dict[str, Facts]:
+    """Metadata of a radius b of a face or a cap, and the shape that has none."""
+    meaning = f"radius of the {what}"
+    return facts("m", meaning, note=f"{meaning} in m; a {without} has none", example=example)
 
 
 class Section(NamedTuple):
