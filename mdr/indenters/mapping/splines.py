@@ -15,6 +15,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
 
 from mdr.indenters.mapping.arc_sums import ArcSums
@@ -104,14 +105,13 @@ class SplineImage:
     def height(self, r: Array) -> Array:
         """f(r)."""
         piece = self._piece(r)
-        return _horner(self.pieces, piece, (r - self.ends[piece]) / self.width[piece])
+        return _values(self.pieces, piece, (r - self.ends[piece]) / self.width[piece])
 
     def image(self, x: Array) -> Array:
         """g(x)."""
         piece = self._piece(x)
-        first = piece == 0
-        tip = _horner(self.tip[None], np.zeros_like(piece), np.where(first, x / self.width[0], 0))
-        return np.asarray(np.where(first, tip, x * self._outer(0, x, piece)))
+        tip = polyval(self._in_first(x, piece), self.tip)
+        return np.asarray(np.where(piece == 0, tip, x * self._outer(0, x, piece)))
 
     def contacts(self, x: Array) -> tuple[Array, Array]:
         """g and F_N/E* at contact radii x > 0, by sums at each of them."""
@@ -123,8 +123,8 @@ class SplineImage:
         piece = self._piece(a)
         low = self.ends[piece]
         tip = self.tip / (np.arange(self.tip.size) + 1)
-        share = np.where(piece == 0, a / self.width[0], 0)
-        first = self.width[0] * share * _horner(tip[None], np.zeros_like(piece), share)
+        share = self._in_first(a, piece)
+        first = self.width[0] * share * polyval(share, tip)
         nodes, weights = GAUSS
         t = (nodes + 1) / 2 * np.sqrt(a - low)[:, None]
         g = self.image((low[:, None] + t * t).ravel()).reshape(t.shape)
@@ -136,7 +136,7 @@ class SplineImage:
         x = np.minimum(np.hypot(s, low), self.ends[-1])
         piece = self._piece(x)
         share = s / x if low > 0 else np.ones_like(s)
-        tip = _horner(self.tip_slopes[None], np.zeros_like(piece), np.where(piece == 0, x / self.width[0], 0))
+        tip = polyval(self._in_first(x, piece), self.tip_slopes)
         rise = share * np.where(piece == 0, tip, self._outer(1, x, piece))
         for b, jump in zip(self.kinks, self.jumps, strict=True):
             if b <= low:
@@ -150,6 +150,10 @@ class SplineImage:
 
     def _piece(self, x: Array) -> Pieces:
         return np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.width.size - 1)
+
+    def _in_first(self, x: Array, piece: Pieces) -> Array:
+        """u of the x in the first piece, 0 for others."""
+        return np.where(piece == 0, x / self.width[0], 0.0)
 
     def _outer(self, which: int, x: Array, piece: Pieces) -> Array:
         """g/x (0) or the smooth part of dg/dx (1) in pieces that are not the first."""
@@ -198,13 +202,10 @@ class SplineImage:
             sine = np.sin(begin[on, None] + half * (nodes + 1))
             u = (far[on, None] * sine - self.ends[i]) / self.width[i]
             for k, (c, factor) in enumerate(((self.slopes, unit), (self.radial, unit), (self.pieces, sine))):
-                total[k] += np.bincount(row[on], (half * _horner(c, i, u) * factor) @ weights, x.size)
+                total[k] += np.bincount(row[on], (half * _values(c, i, u) * factor) @ weights, x.size)
         return total
 
 
-def _horner(c: Array, piece: Pieces, u: Array) -> Array:
+def _values(c: Array, piece: Pieces, u: Array) -> Array:
     """Σ_j c_j u^j with the coefficients of the pieces."""
-    answer = np.zeros_like(u)
-    for j in range(c.shape[1] - 1, -1, -1):
-        answer = answer * u + c[piece, j]
-    return answer
+    return np.asarray(polyval(u, np.moveaxis(c[piece], -1, 0), tensor=False))
