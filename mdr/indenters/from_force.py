@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping import inversion
-from mdr.indenters.mapping.force_curves import Curve, Near, Through, tip_of
+from mdr.indenters.mapping.force_curves import Near, Through, tip_of
 from mdr.indenters.mapping.quadrature import double_exponential, in_chunks
 from mdr.indenters.mapping.shape_check import told_smoothing, why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE
@@ -228,7 +228,7 @@ class FromForce(Indenter):
         return {name: value for name, value in self.__dict__.items() if name not in ("_curve", "_least_radius")}
 
     @cached_property
-    def _curve(self) -> Curve:
+    def _curve(self) -> Near | Through:
         d, F = np.array(self.d[1:]), np.array(self.F[1:])
         return Near(d, F, self.tip, self.smoothing) if self.smoothing else Through(d, F, self.tip)
 

@@ -5,12 +5,19 @@ passed by: F' = 2E* a is a cubic spline in s = √(d/d_n) with coefficients that
 the noise is. Over s the contact radius of a sphere is next to a straight line, and that of a cone a parabola. The
 coefficients follow by non-negative least squares, on as few pieces as come as near to the points as noise lets them.
 A tip may have a face where it is said to be flat, or where nothing is said and it takes no more pieces.
+
+Both kinds of curve know
+
+    power       of d, as which F begins at d -> 0,
+    power_to    depth [m] up to which F is that power,
+    places      depths [m], close enough to see where F' falls,
+    why         why it is no curve of a shape; empty where it is one.
 """
 
 from __future__ import annotations
 
 from itertools import product
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -29,21 +36,6 @@ def tip_of(name: str, value: Any, note: str = "") -> str:
     if not isinstance(value, str) or value not in TIPS:
         raise ValueError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}")
     return value
-
-
-class Curve(Protocol):
-    """F over d > 0, where F ~ d^power at d -> 0."""
-
-    power: float
-    power_to: float  #: up to this depth [m] F is that power
-    places: Array  #: depths [m], close enough to see where F' falls
-    why: str  #: why it is none; empty where it is one
-
-    def force(self, d: Array) -> Array:
-        """F [N] at depths d > 0."""
-
-    def rise(self, d: Array) -> Array:
-        """dF/dd [N/m] at depths d > 0."""
 
 
 class Through:
