@@ -76,7 +76,8 @@ class Mapped(Record, ABC):
             a = np.where(step < -COARSE * d, np.nextafter(a, 0), a)
             step = d - self._g(a)
         r = np.minimum(r, np.nextafter(a, 0))
-        p = in_chunks(self._pressure_of_slope, r, a)
+        edges = (0.0, *self.joints, self.max_radius)
+        p = in_chunks(lambda r, a: abel.pressure_from_slope(self._slope, edges, r, a), r, a)
         rim = (a >= self.max_radius) | (step > COARSE * d)
         p[rim] += rim_pressure(r[rim], a[rim], step[rim])
         return p
@@ -109,10 +110,6 @@ class Mapped(Record, ABC):
         while V / r < np.inf and not short(r):
             r /= 2
         return V / r
-
-    def _pressure_of_slope(self, r: Array, a: Array) -> Array:
-        """p/E* without that of a rim. Arrays (n,)."""
-        return abel.pressure_from_slope(self._slope, (0.0, *self.joints, self.max_radius), r, a)
 
     def _slope(self, s: Array, low: float, high: float) -> Array:
         """dg/ds at x² = low² + s² between the kinks ``low`` and ``high``, for a closed form to override."""
@@ -210,12 +207,6 @@ class Mapped(Record, ABC):
         if d.max() > reach * (1 + 64 * EPS):
             raise ValueError(f"d = {d.max():.6g} m is deeper than {type(self).__name__} {self._why_too_deep(reach)}")
 
-    def _surveyed(self, radius: float) -> "Survey":
-        """How g is within a radius > 0 [m], as far as it is good to the next power of two."""
-        with np.errstate(all="ignore"):
-            beyond = survey(self, float(min(2 ** np.ceil(np.log2(radius)), self.max_radius)))
-        return beyond if beyond.is_good else survey(self, radius)
-
     def _refuse_annular(self, a: float) -> None:
         """ValueError unless it is a shape up to the contact radius a [m]; a g that falls has no unique a(d)."""
         if found := self._mapped(a).why_not:
@@ -239,8 +230,15 @@ class Mapped(Record, ABC):
             raise ValueError(f"{type(self).__name__} is no shape: {wrong}")
 
     def _mapped(self, radius: float) -> "Survey":
-        """How g is within a radius [m]. Warns where two quadrature rules disagree, refuses where it is not finite."""
-        found = self._surveyed(radius)
+        """How g is within a radius > 0 [m], or to the next power of two where all is well that far.
+
+        Warns where two quadrature rules disagree, refuses where g is not finite.
+        """
+        with np.errstate(all="ignore"):
+            further = float(min(2 ** np.ceil(np.log2(radius)), self.max_radius))
+        found = survey(self, further)
+        if found.why_not or found.error > SAME:
+            found = survey(self, radius)
         if not np.isfinite(found.error):
             why = found.why_not or "it has no finite slope: name its end (r_max)"
             raise ValueError(f"{type(self).__name__} is no shape within r = {radius:.6g} m: {why}")
@@ -270,11 +268,6 @@ class Survey(NamedTuple):
 
     why_not: str  #: what is wrong with it there, and where; empty for a shape
     error: float  #: difference of two quadrature rules, over the height; infinite where g is not finite
-
-    @property
-    def is_good(self) -> bool:
-        """Whether it is a shape, and mapped well."""
-        return not self.why_not and self.error <= SAME
 
 
 @remembered(256)
