@@ -20,6 +20,11 @@ def beyond(a, b, t):
     return 2 * a * np.sin((phi + t) / 2) * np.sin((phi - t) / 2)
 
 
+def round_slope(r):
+    """That of a ball."""
+    return r / np.sqrt((R - r) * (R + r))
+
+
 def elliptic_slope(u):
     """(2/pi) (K - E)/u as a mean of positive terms; K and E of modulus u."""
     return u * np.sum(MEAN * SINE / np.sqrt(1 - u[:, None] ** 2 * SINE), axis=1)
@@ -31,11 +36,8 @@ SLOPES = {
     mdr.Paraboloid(R): (lambda a, t: a * np.cos(t) / R, None),
     mdr.PowerLaw(1.5, 2.0): (lambda a, t: 3 * np.sqrt(a * np.cos(t)), None),
     mdr.PowerLaw(4, 1e6): (lambda a, t: 4e6 * (a * np.cos(t)) ** 3, None),
-    mdr.Sphere(R): (lambda a, t: a * np.cos(t) / np.sqrt((R - a * np.cos(t)) * (R + a * np.cos(t))), None),
-    mdr.Ellipsoid(2 * R, 1 / R): (
-        lambda a, t: 2 * a * np.cos(t) / np.sqrt((R - a * np.cos(t)) * (R + a * np.cos(t))),
-        None,
-    ),
+    mdr.Sphere(R): (lambda a, t: round_slope(a * np.cos(t)), None),
+    mdr.Ellipsoid(2 * R, 1 / R): (lambda a, t: 2 * round_slope(a * np.cos(t)), None),
     mdr.Hyperboloid(1e-3, 2e-3): (lambda a, t: a * np.cos(t) / 4e-3 / np.hypot(1, a * np.cos(t) / 2e-3), None),
     mdr.ConstantPressure(A_0, D_0): (lambda a, t: D_0 / A_0 * elliptic_slope(a * np.cos(t) / A_0), None),
     mdr.TruncatedCone(B, THETA): (lambda a, t: T + 0 * t, lambda a, t: 0 * t),

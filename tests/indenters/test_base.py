@@ -30,7 +30,8 @@ def test_the_depth_about_is_of_the_size_of_the_depth(shape):
 
 
 def discs(a):
-    return np.array([0.05, 0.3, 0.7, 0.99]) * a
+    """Distances from the axis, the first within the patch of first touch of a rough face."""
+    return np.array([0.01, 0.3, 0.7, 0.99]) * a
 
 
 @pytest.mark.parametrize("shape", CURVED, ids=name)
@@ -101,7 +102,6 @@ def test_a_function_with_its_kinks_named_is_the_closed_form(shape):
     if shape in WORN:
         assert mapped.profile_1d(0.5 * B) == 0
         d = 1e-15 if isinstance(shape, RoundedPunch) else 1e-300  # hardly pressed: a punch of radius b
-        assert_allclose(shape.force(d, 1), 2 * B * d, rtol=1e-7)  # (a - b)/b = 3e-8 of the rounded edge
         assert_allclose(mapped.force(d, 1), shape.force(d, 1), rtol=MAP)
     r = discs(float(shape.contact_radius(deep)))
     assert_allclose(mapped.pressure(r, deep, E_STAR), shape.pressure(r, deep, E_STAR), rtol=MAP)

@@ -19,25 +19,13 @@ B, R, T = 1e-3, 5e-3, math.tan(0.05)
 MAP = 1e-9  # the accuracy promised for mapped profiles
 
 
-def cap(r):
-    return r * r / (R + np.sqrt((R - r) * (R + r)))
-
-
-def steps(r):
-    return sum(np.maximum(r - b, 0) * T for b in KINKS)
-
-
-def pointed(r):
-    return r * T + r**2 / 1e-2
-
-
 KINKS = (1e-6, B, 1.0001 * B, 5 * B)
 PROFILES = {
     "power": (Profile(lambda r: (r / B) ** 40), 0.1 * B, 20 * B),
-    "pointed": (Profile(pointed), 1e-12, 1e3),
-    "kinks": (Profile(steps, kinks=KINKS), 1e-6 + 1e-12, 0.1),
+    "pointed": (Profile(lambda r: r * T + r**2 / 1e-2), 1e-12, 1e3),
+    "kinks": (Profile(lambda r: sum(np.maximum(r - b, 0) * T for b in KINKS), kinks=KINKS), 1e-6 + 1e-12, 0.1),
     "rounded": (Profile(lambda r: np.maximum(r - B, 0) ** 2, kinks=(B,)), 1.01 * B, 0.1),
-    "sphere": (Profile(cap, r_max=R), 1e-12, 0.98 * R),
+    "sphere": (Profile(lambda r: r * r / (R + np.sqrt((R - r) * (R + r))), r_max=R), 1e-12, 0.98 * R),
 }
 
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from catalogue import A_0, D_0, KINKED, SLOPES, THETA, WORN, B, R, end, name
+from catalogue import A_0, D_0, KINKED, SLOPES, WORN, B, R, end, name
 from numpy.testing import assert_allclose
 
 import mdr
@@ -116,14 +116,6 @@ def test_the_equator_is_the_end_of_a_sphere():
     assert mdr.Sphere(R).max_radius < R
     assert mdr.Sphere(R).contact_radius(5 * R) < R
     assert np.isfinite(mdr.Sphere(R).force(10 * R, 1))
-
-
-def test_the_cap_of_a_cone():
-    assert pytest.approx(B / math.tan(THETA), rel=1e-15) == mdr.CappedCone(B, THETA).R
-    for shape in KINKED:
-        assert shape.kinks == (B,)
-        below, above = shape.profile_1d(B * np.array([1 - 1e-15, 1 + 1e-15]))
-        assert_allclose(above, below, rtol=1e-6, atol=1e-10)  # a root of 1e-15 at a corner
 
 
 def test_a_constant_pressure():

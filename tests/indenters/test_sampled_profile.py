@@ -17,10 +17,6 @@ def sampled(shape, n=201, reach=2e-3, **how):
     return mdr.SampledProfile(r, shape.profile_3d(r), **how)
 
 
-def worst(got, expected):
-    return float(np.max(np.abs(np.asarray(got) / expected - 1)))
-
-
 @pytest.mark.parametrize(("n", "tolerance"), [(20, 1e-6), (50, 1e-8), (200, 1e-11)])
 @pytest.mark.parametrize("R", [5e-12, 5e-3, 5e3])
 def test_points_of_a_sphere(n, tolerance, R):
@@ -29,12 +25,12 @@ def test_points_of_a_sphere(n, tolerance, R):
     shape = sampled(sphere, n, R / 2)
     x = R / 2 * np.geomspace(1e-9, 1, 99)
     d = sphere.profile_1d(x[:-1])
-    assert worst(shape.profile_3d(x), sphere.profile_3d(x)) < tolerance
-    assert worst(shape.profile_1d(x), sphere.profile_1d(x)) < tolerance
-    assert worst(shape.contact_radius(d), x[:-1]) < tolerance
-    assert worst(shape.force(d, 1), sphere.force(d, 1)) < tolerance
+    assert_allclose(shape.profile_3d(x), sphere.profile_3d(x), rtol=tolerance)
+    assert_allclose(shape.profile_1d(x), sphere.profile_1d(x), rtol=tolerance)
+    assert_allclose(shape.contact_radius(d), x[:-1], rtol=tolerance)
+    assert_allclose(shape.force(d, 1), sphere.force(d, 1), rtol=tolerance)
     r, deep = R * np.array([0, 1e-6, 0.1, 0.3, 0.39]), sphere.profile_1d(0.4 * R)
-    assert worst(shape.pressure(r, deep, 1), sphere.pressure(r, deep, 1)) < 10 * tolerance
+    assert_allclose(shape.pressure(r, deep, 1), sphere.pressure(r, deep, 1), rtol=10 * tolerance)
 
 
 @pytest.mark.parametrize(("shape", "how"), [
@@ -57,15 +53,13 @@ def test_what_a_spline_can_be_is_exact(shape, how):
     assert_allclose(spline.pressure(r, d, 1), shape.pressure(r, d, 1), rtol=1e-10)
 
 
-def test_noise_is_smoothed_or_refused():
+def test_noise_is_smoothed():
     rng, noise = np.random.default_rng(1), 1e-7
     f = mdr.Sphere(R).profile_3d(GRID) + rng.normal(0, noise, GRID.size)
-    with pytest.raises(ValueError, match=r"annular contact.*falls at x = .*if it is noise.*smoothing="):
-        mdr.SampledProfile(GRID, f)
     shape = mdr.SampledProfile(GRID, f, smoothing=noise)
     residual = shape.profile_3d(GRID) - (f - f[0])
     assert np.std(residual) == pytest.approx(noise, rel=0.3)
-    assert worst(shape.force(np.array([1e-5, 1e-4]), 1), mdr.Sphere(R).force(np.array([1e-5, 1e-4]), 1)) < 1e-3
+    assert_allclose(shape.force([1e-5, 1e-4], 1), mdr.Sphere(R).force([1e-5, 1e-4], 1), rtol=1e-3)
 
 
 def test_no_spline_follows_the_noise_of_many_points(monkeypatch):

@@ -3,6 +3,7 @@
 import math
 import re
 import warnings
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,16 +15,12 @@ RATIOS = [-0.9, -0.3, 0.0, 0.3, 0.45, 0.5]
 EXACT = 1e-14  # a handful of roundings
 
 
-def one_body(kind, E, nu):
-    return mdr.Elastic(E=E, nu=nu) if kind == "Elastic" else mdr.KelvinVoigt(E=E, nu=nu, tau=1e-3)
-
-
-@pytest.mark.parametrize("kind", ["Elastic", "KelvinVoigt"])
+@pytest.mark.parametrize("material", [mdr.Elastic, partial(mdr.KelvinVoigt, tau=1e-3)], ids=["Elastic", "KelvinVoigt"])
 @pytest.mark.parametrize("nu", RATIOS)
-def test_contact_moduli_of_one_body(kind, nu):
+def test_contact_moduli_of_one_body(material, nu):
     E = 3e6
     G = E / (2 * (1 + nu))
-    material = one_body(kind, E, nu)
+    material = material(E=E, nu=nu)
     assert_allclose(1 / material.E_star, (1 - nu**2) / E, rtol=EXACT)
     assert_allclose(1 / material.G_star, (2 - nu) / (4 * G), rtol=EXACT)
     assert_allclose(material.mindlin_ratio, material.E_star / material.G_star, rtol=EXACT)
