@@ -116,11 +116,15 @@ def test_nothing_is_kept_of_a_shape_that_can_be_changed():
 
 @pytest.mark.parametrize("place", [5e-4, 4.87e-4, 3.1e-4])
 @pytest.mark.parametrize("step", [1e-4, 1e-5, 3e-8])
-def test_a_step_that_is_not_named_is_refused(place, step):
-    """No quadrature sees it. A steep slope, and one without bound at a kink, are none."""
-    walled = Profile(lambda r: np.where(r < place, 0, step) + 0.01 * r)
-    with pytest.raises(ValueError, match=r"f steps by .* a vertical wall"):
-        walled.force(20e-6, 4e6)
+def test_a_step_is_refused(place, step):
+    """No quadrature sees one that is not named. A steep slope, and one without bound at a kink, are none."""
+
+    def walled(r):
+        return np.where(r < place, 0, step) + 0.01 * r
+
+    for refused in (lambda: Profile(walled).force(20e-6, 4e6), lambda: Profile(walled, kinks=(place,))):
+        with pytest.raises(ValueError, match=r"f steps by .* a vertical wall"):
+            refused()
     steep = Profile(lambda r: 0.01 * r + np.maximum(r - place, 0), kinks=(place,))
     root = Profile(lambda r: 1e-3 * np.sqrt(np.maximum(r - place, 0)), kinks=(place,))
     assert steep.contact_radius(20e-6) > place < root.contact_radius(1e-6)

@@ -81,6 +81,9 @@ ARMS = {
     "twenty decades": [(1e6, float(tau)) for tau in np.logspace(-10, 10, 21)],
     "stiff and slow": [(3e12, 1.0), (1e6, 1e6)],
 }
+TWO_ARMS = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3)
+OMEGA = np.geomspace(1e-2, 1e4, 61)
+YOUNG = np.asarray(TWO_ARMS.dynamic_modulus(OMEGA)) * (1 - 0.09)  #: Young's modulus of the two arms
 
 
 @pytest.mark.parametrize("tau", [0.0, 1e-3])
@@ -122,15 +125,11 @@ def test_moduli_in_time_and_frequency_are_those_of_the_arms():
 
 
 def test_arms_are_found_in_dynamic_data():
-    true = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3)
-    omega = np.geomspace(1e-2, 1e4, 61)
-    modulus = np.asarray(true.dynamic_modulus(omega)) * (1 - 0.09)
-    found = mdr.Prony.fit(omega, modulus.real, modulus.imag, nu=0.3)
-    assert found.misfit(omega, modulus.real, modulus.imag) < 1e-9  # two of its times are those of the data
+    found = mdr.Prony.fit(OMEGA, YOUNG.real, YOUNG.imag, nu=0.3)
+    assert found.misfit(OMEGA, YOUNG.real, YOUNG.imag) < 1e-9  # two of its times are those of the data
     assert len(found.arms) == 2
-    rng = np.random.default_rng(5)
-    noisy = modulus * (1 + 0.02 * rng.normal(size=61))
-    assert mdr.Prony.fit(omega, noisy.real, noisy.imag, nu=0.3).misfit(omega, modulus.real, modulus.imag) < 0.03
+    noisy = YOUNG * (1 + 0.02 * np.random.default_rng(5).normal(size=61))
+    assert mdr.Prony.fit(OMEGA, noisy.real, noisy.imag, nu=0.3).misfit(OMEGA, YOUNG.real, YOUNG.imag) < 0.03
 
 
 @pytest.mark.parametrize("exponent", [0.1, 0.5, 0.9])
@@ -144,13 +143,12 @@ def test_a_power_law_is_followed_within_its_error(exponent, error):
 
 
 def test_tables_of_arms(tmp_path):
-    body = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3)
     table, case = tmp_path / "arms.csv", tmp_path / "arms.toml"
     table.write_text("E_j [Pa],tau_j [s]\n1e6,inf\n2e6,0.01\n3e6,1\n", encoding="utf-8")
-    assert mdr.Prony.read(table, nu=0.3) == body
+    assert mdr.Prony.read(table, nu=0.3) == TWO_ARMS
     text = '[material]\nmodel = "Prony"\nE_inf = 1e6\narms = [[2e6, 0.01], [3e6, 1.0]]\nnu = 0.3\n'
     case.write_text(text, encoding="utf-8")
-    assert mdr.Prony.read(case) == body
+    assert mdr.Prony.read(case) == TWO_ARMS
     table.write_text("E_j,tau_j\n-1e6,1\n")
     with pytest.raises(ValueError, match=r"arms\.csv: .*line 2: must have E_j >= 0 Pa and tau_j > 0 s"):
         mdr.Prony.read(table, nu=0.3)
@@ -169,19 +167,18 @@ def test_tables_of_arms(tmp_path):
 
 def test_a_fit_that_misses_says_what_may_help():
     """Several temperatures, too few arms, and data of no passive body; arms with noise of 3 % are silent."""
-    true, omega = mdr.Prony(1e6, [(2e6, 1e-2), (3e6, 1.0)], 0.3), np.geomspace(1e-2, 1e4, 61)
-    E = np.asarray(true.dynamic_modulus(omega)) * (1 - 0.09)
-    noisy = E * (1 + 0.03 * np.random.default_rng(5).normal(size=61))
-    for data, n_arms, words in [
-        ((omega, noisy), None, None),
-        ((omega, E), 1, "misses the moduli by .* n_arms=19 may come nearer"),
-        ((np.tile(omega, 2), np.concatenate([E, E / 5])), None, r"frequencies repeat .* temperature=20"),
-        ((omega, E[::-1]), None, "no arms have such moduli"),
-        ((omega, E[::-1]), 1, "no arms have such moduli"),
+    noisy = YOUNG * (1 + 0.03 * np.random.default_rng(5).normal(size=61))
+    twice = np.tile(OMEGA, 2), np.concatenate([YOUNG, YOUNG / 5])
+    for (omega, E), n_arms, words in [
+        ((OMEGA, noisy), None, None),
+        ((OMEGA, YOUNG), 1, "misses the moduli by .* n_arms=19 may come nearer"),
+        (twice, None, r"frequencies repeat .* temperature=20"),
+        ((OMEGA, YOUNG[::-1]), None, "no arms have such moduli"),
+        ((OMEGA, YOUNG[::-1]), 1, "no arms have such moduli"),
     ]:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
-            mdr.Prony.fit(data[0], data[1].real, data[1].imag, nu=0.3, n_arms=n_arms)
+            mdr.Prony.fit(omega, E.real, E.imag, nu=0.3, n_arms=n_arms)
         assert [bool(re.search(words, str(one.message))) for one in told] == [True] if words else not told
 
 
