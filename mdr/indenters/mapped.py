@@ -170,7 +170,7 @@ class Mapped(Record, ABC):
     def _why_no_radius(self, d: float, end: float) -> str:
         """Message: why no radius up to ``end`` has the depth d, read off the heights from r = d on."""
         name, height = ("g(x)", self._g) if self._gives_g else ("f(r)", self._f)
-        r = np.unique(np.minimum(np.geomspace(min(d, end), end, 2048), end))
+        r = np.unique(np.minimum(np.geomspace(min(d, end), end, SAMPLES), end))
         with np.errstate(all="ignore"):
             heights, further = height(r), height(np.array([min(2 * end, np.finfo(float).max)]))[0]
         known = np.isfinite(heights)

@@ -16,8 +16,6 @@ Symbols: E, G, E_star, G_star moduli [Pa], nu Poisson's ratio [-], tau, tau_j re
 eta shear viscosity [Pa s], omega angular frequency [rad/s], t time [s].
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
@@ -29,6 +27,8 @@ from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 from mdr.tools.secular import secular_zeros
+
+Arms = tuple[tuple[float, float], ...]  #: Maxwell arms, each a modulus [Pa] and a relaxation time [s]
 
 
 def poisson_ratio_of(mindlin_ratio: float) -> float:
@@ -94,7 +94,7 @@ class Material(Record, ABC):
         return self.E_star / self.G_star
 
     @property
-    def contact_arms(self) -> tuple[tuple[float, float], ...]:
+    def contact_arms(self) -> Arms:
         """Maxwell arms as (E*_j [Pa], tau_j [s]), beside the branch of E_star and tau; none for most materials."""
         return ()
 

@@ -19,13 +19,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from numpy.typing import ArrayLike
 
-from mdr.materials.base import POISSON, OneBody, poisson_ratio
+from mdr.materials import prony_fit, step_fit
+from mdr.materials.base import POISSON, Arms, OneBody, poisson_ratio
 from mdr.tools.checks import not_negative, positive
 from mdr.tools.csv_header import fault
 from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
-
-Arms = tuple[tuple[float, float], ...]
 
 
 def _pairs(name: str, arms: Any, note: str = "") -> Arms:
@@ -190,8 +189,6 @@ class Prony(_WithArms):
         >>> body.arms[0][1]
         0.1
         """
-        from mdr.materials import prony_fit
-
         data = prony_fit.data_of(omega, storage, loss)
         E_inf, arms, _ = prony_fit.to_data(*data, n_arms)
         body = cls(E_inf, arms, nu)
@@ -236,8 +233,6 @@ class Prony(_WithArms):
         >>> print(f"{body.E_inf:.3g} Pa")
         1e+06 Pa
         """
-        from mdr.materials import step_fit
-
         body = cls(*step_fit.to_relaxation(t, modulus, n_arms), nu=nu)
         step_fit.warn_of_misfit(body, t, modulus, is_creep=False)
         return body
@@ -280,8 +275,6 @@ class Prony(_WithArms):
         >>> print(f"{body.E_inf:.3g} Pa")
         1e+06 Pa
         """
-        from mdr.materials import step_fit
-
         E_inf, arms, tau = step_fit.to_creep(t, compliance, n_arms)
         body = cls(E_inf, arms, nu, tau)
         step_fit.warn_of_misfit(body, t, compliance, is_creep=True)
@@ -324,8 +317,6 @@ class Prony(_WithArms):
         >>> len(body.arms)
         6
         """
-        from mdr.materials import prony_fit
-
         return cls(*prony_fit.to_power_law(modulus, exponent, omega, error), nu=nu)
 
     @classmethod
@@ -407,6 +398,4 @@ class Prony(_WithArms):
         float
             ``max |E(omega) - E' - i E''| / |E' + i E''|`` [-].
         """
-        from mdr.materials import prony_fit
-
         return float(prony_fit.misfits(self, *prony_fit.data_of(omega, storage, loss)).max())

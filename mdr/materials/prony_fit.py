@@ -4,33 +4,29 @@ Relaxation times are spread evenly in log time. The moduli follow by non-negativ
 deviation of E(omega) (Lawson and Hanson 1974, `scipy.optimize.nnls`), so that every arm is passive.
 """
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.materials.base import OneBody, arm
+from mdr.materials.base import Arms, OneBody, arm
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import between, count, finite_array, positive, positive_array
 from mdr.tools.warned import warn_outside
-
-Pairs = tuple[tuple[float, float], ...]
 
 TOLD = 0.1  #: misfit that is told: dynamic tests are good to some 5 %, and one of ten points to twice that
 ONE = 0.01  #: relative difference of frequencies that are one: no passive modulus rises faster than its frequency
 MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
 
 
-def to_data(omega: Array, modulus: Any, n_arms: int | None) -> tuple[float, Pairs, float]:
+def to_data(omega: Array, modulus: Any, n_arms: int | None) -> tuple[float, Arms, float]:
     """E_inf [Pa] and arms closest to measured moduli, and the greatest relative deviation that they leave."""
     n_arms = number_of_arms(omega, omega.size, n_arms)
     return _closest(omega, modulus, 1 / spread(omega.min(), omega.max(), n_arms))
 
 
-def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Pairs]:
+def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Arms]:
     """E_inf [Pa] and arms of a spring-pot over a range of frequencies."""
     modulus = positive("modulus", modulus, "|E| at omega[0] in Pa")
     exponent = between("exponent", exponent, 0, 1, "of the power law")
@@ -54,7 +50,7 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
     )
 
 
-def arms_of(moduli: Array, times: Array) -> Pairs:
+def arms_of(moduli: Array, times: Array) -> Arms:
     """The arms that have a modulus."""
     return tuple((E, time) for E, time in zip(moduli.tolist(), times.tolist(), strict=True) if E > 0)
 
@@ -108,7 +104,7 @@ def spread(first: float, last: float, n: int) -> Array:
     return np.geomspace(first, last, n) if n > 1 else np.array([np.sqrt(first * last)])
 
 
-def _closest(omega: Array, modulus: Any, times: Array) -> tuple[float, Pairs, float]:
+def _closest(omega: Array, modulus: Any, times: Array) -> tuple[float, Arms, float]:
     """E_inf and arms of these times, non-negative, of least relative deviation, and the greatest that is left."""
     weight, of_arms = 1 / np.abs(modulus), arm(np.outer(omega, times))
     columns = np.column_stack([np.ones(omega.size), of_arms]) * weight[:, None]

@@ -7,20 +7,18 @@ relative deviation. Compliances are turned into arms exactly: tau_j are the zero
 (Park and Schapery 1999).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.materials.base import OneBody
-from mdr.materials.prony_fit import TOLD, Pairs, arms_of, least_squares, number_of_arms, spread
+from mdr.materials.base import Arms, OneBody
+from mdr.materials.prony_fit import TOLD, arms_of, least_squares, number_of_arms, spread
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array, positive_array
 from mdr.tools.secular import secular_zeros
 from mdr.tools.warned import warn_outside
 
 
-def to_relaxation(t: ArrayLike, modulus: ArrayLike, n_arms: int | None) -> tuple[float, Pairs]:
+def to_relaxation(t: ArrayLike, modulus: ArrayLike, n_arms: int | None) -> tuple[float, Arms]:
     """E_inf [Pa] and arms closest to a relaxation."""
     t, modulus = data_of(t, "modulus", modulus, "Pa")
     times = _times(t, n_arms)
@@ -29,7 +27,7 @@ def to_relaxation(t: ArrayLike, modulus: ArrayLike, n_arms: int | None) -> tuple
     return float(found[0]), arms_of(found[1:], times)
 
 
-def to_creep(t: ArrayLike, compliance: ArrayLike, n_arms: int | None) -> tuple[float, Pairs, float]:
+def to_creep(t: ArrayLike, compliance: ArrayLike, n_arms: int | None) -> tuple[float, Arms, float]:
     """E_inf [Pa], arms and Kelvin time [s], above zero only where nothing yields at once, closest to a creep."""
     t, compliance = data_of(t, "compliance", compliance, "1/Pa")
     times = _times(t, n_arms)

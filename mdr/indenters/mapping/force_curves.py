@@ -14,8 +14,6 @@ Both kinds of curve know
     why         why it is no curve of a shape; empty where it is one.
 """
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Any
 
