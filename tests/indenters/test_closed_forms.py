@@ -19,15 +19,11 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
 def sneddon(shape, a):
     """g(a) = a ∫ f'(a cos t) dt and F_N/E* = 2a² ∫ cos²t f'(a cos t) dt over a quarter turn (Sneddon 1965)."""
     outside, inside = SLOPES[shape]
-    turns = [0.0, math.pi / 2]
-    slopes = [outside]
-    if inside and a > B:
-        turns.insert(1, math.atan2(math.sqrt((a - B) * (a + B)), B))
-        slopes = [outside, inside]
-    elif inside:
-        slopes = [inside]
+    kink = math.atan2(math.sqrt(max((a - B) * (a + B), 0)), B) if inside else math.pi / 2
     g = F = 0.0
-    for low, high, slope in zip(turns[:-1], turns[1:], slopes, strict=True):
+    for low, high, slope in ((0.0, kink, outside), (kink, math.pi / 2, inside)):
+        if low == high:
+            continue
         s = np.pi / 4 * (NODES + 1)  # sin² s crowds nodes at both ends: f' may be a root there
         t, dt = low + (high - low) * np.sin(s) ** 2, (high - low) * np.sin(2 * s) * np.pi / 4
         g += a * np.sum(WEIGHTS * dt * slope(a, t))
