@@ -76,10 +76,11 @@ class FromForce(Indenter):
             raise ValueError(
                 f"smoothing = {self.smoothing:.6g} N is the noise of the forces, which reach {most:.6g} N: give it in N"
             )
-        falls = "" if self.smoothing else not_ascending("F", self.F)
-        why, smoothing = (falls, told_smoothing(self, d, F, "N")) if falls else why_not(self, d, F, "N")
-        if why:  # the contact must grow while it is pressed deeper
-            raise ValueError(f"{why if falls else f'F must rise more and more steeply, but {why}'}; {smoothing}")
+        wrong = "" if self.smoothing else not_ascending("F", self.F)
+        if not wrong and (why := why_not(self, d, F, "N")):  # the contact must grow while it is pressed deeper
+            wrong = f"F must rise more and more steeply, but {why}"
+        if wrong:
+            raise ValueError(f"{wrong}; {told_smoothing(self, d, F, 'N')}")
 
     @classmethod
     def read(

@@ -13,7 +13,7 @@ import numpy as np
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
-from mdr.indenters.mapping.shape_check import FINE, why_no_shape, why_not
+from mdr.indenters.mapping.shape_check import FINE, told_smoothing, why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive
@@ -98,9 +98,8 @@ class SampledProfile(Indenter):
         self._require_points(self.kinks)
         r, f = np.array(self.r), np.array(self.f)
         with in_range(f"a shape of the height {range_of_f:.6g} m and the radius {r[-1]:.6g} m"):
-            why, smoothing = why_not(self, r, f, "m")
-            if why:
-                raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {smoothing}")
+            if why := why_not(self, r, f, "m"):
+                raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {told_smoothing(self, r, f, 'm')}")
 
     def _why_no_shape(self) -> str:
         """What is wrong with the contact at the ends of all pieces, in their middles and between; empty for a shape."""

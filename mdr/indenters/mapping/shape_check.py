@@ -28,6 +28,7 @@ FALLS = (
     "annular contact: its one-dimensional profile g falls at x = {a:.6g} m, so that a ring touches before the disc "
     "inside it; the method needs a full disc: choose a shape whose g(x) rises"
 )
+MANY = 300  #: points; through fewer a spline that follows the noise is found at once; its time goes as their square
 AGREE = 1e-6  #: of the greatest: by which two ways to one quantity may differ in a user's class
 
 
@@ -141,28 +142,23 @@ def noise_of(x: Array, y: Array) -> float:
     return float(np.median(np.abs(off) / np.sqrt(sum(share**2 for share in shares))) / 0.6745)
 
 
-def why_noisy(smoothing: float, x: Array, y: Array, unit: str) -> str:
-    """What is wrong with a smoothing above 0 of many points (x, y) by which a spline follows their noise, before it
-    does; empty where nothing is. The noise is known to 1.7/√n of it, of which four times are left out.
+def why_not(shape: Any, x: Array, y: Array, unit: str) -> str:
+    """What is wrong with the shape of measured points (x, y); empty for a shape.
+
+    A smoothing of many points by which their spline follows the noise is refused before it does. The noise is known to
+    1.7/√n of it, of which four times are left out.
     """
-    few = 300  # through these a spline that follows the noise is found at once; its time goes as their square
-    if x.size < few or not 0 < smoothing < (1 - 7 / np.sqrt(x.size)) * noise_of(x, y):
-        return ""
-    return f"smoothing = {smoothing:.6g} {unit} is less than the noise of the points; without it the spline meets each"
-
-
-def why_not(shape: Any, x: Array, y: Array, unit: str) -> tuple[str, str]:
-    """What is wrong with the shape of measured points (x, y), and what to say of its smoothing; empty for a shape."""
-    why: str = why_noisy(shape.smoothing, x, y, unit) or shape._why_no_shape()
-    return why, told_smoothing(shape, x, y, unit) if why else ""
+    if x.size >= MANY and 0 < shape.smoothing < (1 - 7 / np.sqrt(x.size)) * noise_of(x, y):
+        known = f"smoothing = {shape.smoothing:.6g} {unit} is less than the noise of the points"
+        return f"{known}; without it the spline meets each"
+    why: str = shape._why_no_shape()
+    return why
 
 
 def told_smoothing(shape: Any, x: Array, y: Array, unit: str) -> str:
     """What to say of more smoothing: the first of some with which these points make a shape, or that none does."""
-    noise, least = noise_of(x, y), shape.smoothing
-    last = least
-    # points through which a spline that follows the noise is found at once; its time goes as their square
-    for smoothing in max(1.2 * least, (0.5 if x.size < 300 else 1.1) * noise) * 1.5 ** np.arange(12):
+    noise, last = noise_of(x, y), shape.smoothing
+    for smoothing in max(1.2 * last, (0.5 if x.size < MANY else 1.1) * noise) * 1.5 ** np.arange(12):
         if not 0 < smoothing < 0.3 * np.ptp(y):
             break
         last = float(f"{smoothing:.2g}")
