@@ -18,7 +18,7 @@ from mdr.tools.arrays import Array
 N_NODES = 22  #: Gauss's 14 points are exact up to degree 27: of a node's polynomial, 21, times h, 6
 LEAF = 4  #: pieces of the smallest groups
 
-Numbers = NDArray[np.intp]
+Numbers = NDArray[np.intp]  #: of radii, of groups or of pieces
 
 
 class Level(NamedTuple):
@@ -66,12 +66,8 @@ def _grouped(below: Level, parts: int) -> Level:
     low, high = below.low[first], np.maximum.reduceat(below.high, first)
     of = np.arange(below.low.size) // parts
     sums = np.einsum("kig,igm->kim", below.weights, _shares(below.nodes, low[of], high[of]))
-    return Level(low, high, _nodes(low, high), np.add.reduceat(sums, first, axis=1), parts)
-
-
-def _nodes(low: Array, high: Array) -> Array:
-    """Chebyshev points of each group, (n, N_NODES)."""
-    return np.asarray(low[:, None] + (high - low)[:, None] * (chebyshev_fit(N_NODES)[0] + 1) / 2)
+    nodes = low[:, None] + (high - low)[:, None] * (chebyshev_fit(N_NODES)[0] + 1) / 2
+    return Level(low, high, nodes, np.add.reduceat(sums, first, axis=1), parts)
 
 
 def _shares(r: Array, low: Array, high: Array) -> Array:

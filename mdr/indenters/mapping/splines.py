@@ -16,15 +16,12 @@ from typing import Any
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
-from numpy.typing import NDArray
 
-from mdr.indenters.mapping.arc_sums import ArcSums
+from mdr.indenters.mapping.arc_sums import ArcSums, Numbers
 from mdr.indenters.mapping.quadrature import N_FIT, chebyshev_fit
 from mdr.indenters.mapping.stable_functions import GAUSS, leg
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import progress
-
-Pieces = NDArray[np.intp]  #: which piece each radius lies in
 
 DEGREE = 5  #: of a spline, four times continuously differentiable
 AT_ONCE = 2048  #: radii whose sums are taken at once
@@ -148,14 +145,15 @@ class SplineImage:
         """∫₀^x g dx at all ends of pieces."""
         return np.concatenate([[0.0], self.ends[1:] * self._arcs(self.ends[1:])[2]])
 
-    def _piece(self, x: Array) -> Pieces:
+    def _piece(self, x: Array) -> Numbers:
+        """Which piece each radius lies in."""
         return np.clip(np.searchsorted(self.ends, x, side="right") - 1, 0, self.width.size - 1)
 
-    def _in_first(self, x: Array, piece: Pieces) -> Array:
+    def _in_first(self, x: Array, piece: Numbers) -> Array:
         """u of the x in the first piece, 0 for others."""
         return np.where(piece == 0, x / self.width[0], 0.0)
 
-    def _outer(self, which: int, x: Array, piece: Pieces) -> Array:
+    def _outer(self, which: int, x: Array, piece: Numbers) -> Array:
         """g/x (0) or the smooth part of dg/dx (1) in pieces that are not the first."""
         asked = np.unique(piece[piece > 0])
         if not self.made[asked].all():
@@ -167,7 +165,7 @@ class SplineImage:
             one, two = c[piece, j] + 2 * t * one - two, one
         return np.asarray(c[piece, 0] + t * one - two)
 
-    def _make(self, pieces: Pieces) -> None:
+    def _make(self, pieces: Numbers) -> None:
         """The polynomials of some pieces."""
         nodes, to_coefficients = chebyshev_fit(N_FIT)
         x = self.ends[pieces, None] + self.width[pieces, None] * ((nodes + 1) / 2) ** 2
@@ -206,6 +204,6 @@ class SplineImage:
         return total
 
 
-def _values(c: Array, piece: Pieces, u: Array) -> Array:
+def _values(c: Array, piece: Numbers, u: Array) -> Array:
     """Σ_j c_j u^j with the coefficients of the pieces."""
     return np.asarray(polyval(u, np.moveaxis(c[piece], -1, 0), tensor=False))
