@@ -26,7 +26,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.depth_cycle import Cycle
+from mdr.case.depth_cycle import DEEPEST, Cycle
 from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
@@ -155,8 +155,13 @@ def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillatio
     """The cycle of depth under an oscillating load.
 
     Raises ValueError where no periodic depth is found: beside a resonance of the mass on the contact, or where it
-    bounces in another rhythm.
+    bounces in another rhythm; and where the amplitude is lost in the digits of the mean depth.
     """
+    if motion.F_z0 > DEEPEST * motion.dF_z:
+        raise ValueError(
+            f"dF_z = {motion.dF_z:g} N is less than {1 / DEEPEST:g} of F_z0, and the amplitude of the depth is lost in "
+            "the rounding of its mean; raise it: critical velocities are proportional to it there"
+        )
     if motion.m_z == 0 and not Rheology.periodic(material, motion.omega).remembers:
         return _quasi_static(shape, material, motion)
     return _balanced(shape, material, motion)

@@ -40,10 +40,10 @@ def test_a_shake_along_the_pull_has_the_friction_of_the_springs(v):
 
 
 KNOWN = {  # contacts that springs know in closed form, and velocities
-    "normal": (without_coupling(BALL), 0.05),
-    "along": (without_coupling(ALONG), 0.6),
-    "cone, along": (replace(without_coupling(ALONG), indenter=mdr.Cone(theta=0.05)), 0.6),
-    "punch": (replace(without_coupling(BALL), indenter=mdr.FlatPunch(a=3e-4)), 0.05),
+    "normal": (OF_SPRINGS, 0.05),
+    "along": (replace(ALONG, material=OF_SPRINGS.material), 0.6),
+    "cone, along": (replace(ALONG, material=OF_SPRINGS.material, indenter=mdr.Cone(theta=0.05)), 0.6),
+    "punch": (replace(OF_SPRINGS, indenter=mdr.FlatPunch(a=3e-4)), 0.05),
     "Kelvin, both": (replace(BALL, material=mdr.KelvinVoigt(E=3e6, nu=0.0, tau=2e-3), shake=ALONG.shake), 0.2),
 }
 

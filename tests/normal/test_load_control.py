@@ -125,6 +125,15 @@ def test_the_undamped_natural_frequency_of_the_mass_is_refused_by_name():
         mdr.resolved(at_pole)
 
 
+@pytest.mark.parametrize("shape", SHAPES)
+def test_an_amplitude_that_is_lost_in_the_digits_of_the_depth_is_refused(shape):
+    """The depth is good to some 1e-15, so its amplitude to 1e-6 where it is 1e-9 of it; below it is noise."""
+    case = under_load(shape, ELASTIC, 1.01e-9)
+    assert_allclose(mdr.full_slip_critical_velocity(case), mdr.critical_velocity(case), rtol=1e-5)
+    with pytest.raises(ValueError, match="less than 1e-09 of F_z0"):
+        under_load(shape, ELASTIC, 0.99e-9)
+
+
 def rounded_ball(r):
     return 1e-3 - np.sqrt(1e-6 - np.asarray(r) ** 2)
 

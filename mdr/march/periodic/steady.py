@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.depth_cycle import DEEPEST
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.each_alone import search_alone
@@ -25,7 +26,6 @@ from mdr.normal.springs import SpringArray, springs_of
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
-DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
 FASTEST = 1e15  #: v_0 over mu_0 kappa omega du_z, Eq. (1), beyond which rounding hides the slip velocity
 BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
 MOST_ACCURATE, LEAST_ACCURATE = 1e-8, 1e-3  #: that can be asked for
