@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeVar
 import mdr
 from mdr.commands.output import WrongInput
 from mdr.files.toml_text import StandardInput
-from mdr.tools.notation import UNITS, is_number, number_in, parted, scale_of, value_in
+from mdr.tools.notation import is_number, is_unit, number_in, parted, value_in
 
 OF_V_C, OF_MU_0 = "v_c", "mu_0"  #: units of multiples
 #: how a value begins that is no option, as -1e-3 and -0.5v_c; argparse itself knows -1 and -0.001 alone
@@ -37,15 +37,12 @@ def joined(given: Sequence[str]) -> list[str]:
     """The arguments, a unit that stands alone behind a number put to it: 5 mm/s without quotes."""
     found: list[str] = []
     for one in given:
-        if found and is_number(found[-1]) and parted(f"1 {one}") == ("1", one) and _is_unit(one):
+        stands_behind = bool(found) and is_number(found[-1]) and parted(f"1 {one}") == ("1", one)
+        if stands_behind and (is_unit(one) or one in (OF_V_C, OF_MU_0)):
             found[-1] += one
         else:
             found.append(one)
     return found
-
-
-def _is_unit(text: str) -> bool:
-    return text in (OF_V_C, OF_MU_0) or any(scale_of(text, unit) is not None for unit in UNITS)
 
 
 def path_of(text: str) -> str:
@@ -68,7 +65,7 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     """How accurate an answer is to be."""
     from mdr.march.periodic.steady import BUDGET, accuracy_of
 
-    read = read_as("a number from 1e-8 to 1e-3", lambda text: accuracy_of(value_in("accuracy", text, "-")))
+    read = plain_number("-", "a number from 1e-8 to 1e-3", accuracy_of)
     meaning = f"{of_what}, 1e-8 to 1e-3 (default: {BUDGET:g})"
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
@@ -124,9 +121,12 @@ def _pair(text: str) -> tuple[str, str]:
     return name, value
 
 
-def plain_number(unit: str, must_be: str) -> Callable[[str], float]:
-    """What argparse reads a number with, in this unit where it has none; it says what the argument must be."""
-    return read_as(must_be, lambda text: value_in("it", text, unit))
+def plain_number(unit: str, must_be: str, checked: Callable[[float], float] = float) -> Callable[[str], float]:
+    """What argparse reads a number with, in this unit where it has none; it says what the argument must be.
+
+    `checked` raises ValueError for a number that it must not be.
+    """
+    return read_as(must_be, lambda text: checked(value_in("it", text, unit)))
 
 
 class Asked(NamedTuple):

@@ -42,12 +42,11 @@ def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     text = "\n".join([*_lines(found, equation_of(case)[0]), *([text_of(ends)] if ends else [])])
     answer(args, values, text, case)
     write_found(args, found.plot, found.table(), "", mdr.write_case(case))
-    loose = [why for why, settled in zip(found.why, found.settled, strict=False) if not settled]
-    unsettled = found.settled.size - int(found.settled.sum())
-    if not unsettled:
+    loose = [why for why, settled in zip(found.why, found.settled, strict=True) if not settled]
+    if not loose:
         return Exit.DONE
     reasons = "".join(f"\n  {why}" for why in dict.fromkeys(loose) if why)
-    return complain(f"{unsettled} of {found.v_0.size} runs did not settle{reasons}")
+    return complain(f"{len(loose)} of {found.v_0.size} runs did not settle{reasons}")
 
 
 def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[float]:

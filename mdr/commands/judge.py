@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 
 import mdr
-from mdr.commands.arguments import add_accuracy, read_as
+from mdr.commands.arguments import add_accuracy, plain_number
 from mdr.commands.output import Exit, Told, answer, text_of, values_of
 from mdr.commands.velocity import HARMONICS, ends_of, equation_of, told_velocity
 from mdr.friction.measured_velocity import MeasuredVelocity
 from mdr.friction.verdict import Verdict
 from mdr.tools.checks import between
-from mdr.tools.notation import value_in
 
 
 def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
@@ -21,9 +21,8 @@ def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """How far off a good formula may be."""
-    share = read_as(
-        "a share above 0 and below 1, such as 1% or 0.01", lambda text: between("", value_in("", text, "-"), 0, 1)
-    )
+    must_be = "a share above 0 and below 1, such as 1% or 0.01"
+    share = plain_number("-", must_be, partial(between, "", low=0, high=1))
     usual = f"{100 * Verdict.within:g}%%"
     meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {usual})"
     command.add_argument("--within", metavar="share", type=share, default=Verdict.within, help=meaning)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from mdr.commands.output import Exit, answer
+from mdr.commands.output import answer
 from mdr.friction.warm import compile_all
 
 
@@ -12,5 +12,4 @@ def warm(args: argparse.Namespace, _: None) -> int:
     """Compile, with progress, and say that it is done."""
     kinds = compile_all()
     end = "until the program is changed; one with tau_0 still compiles at first"
-    answer(args, {"kinds": kinds}, f"{kinds} kinds of run are compiled on this machine, {end}")
-    return Exit.DONE
+    return answer(args, {"kinds": kinds}, f"{kinds} kinds of run are compiled on this machine, {end}")
