@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict, replace
+from functools import partial
 from typing import Any
 
 import mdr
 from mdr.case.coulomb import require_coulomb
 from mdr.case.displacement import inner_part
-from mdr.commands.arguments import add_reading, path_of, read_as, read_file, velocity, whole_number
-from mdr.commands.output import WrongInput, answer, picked
+from mdr.commands.arguments import add_reading, path_of, plain_number, read_file, velocity, whole_number
+from mdr.commands.output import Exit, WrongInput, answer, picked
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
-from mdr.tools.notation import value_in
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -25,7 +25,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     case = "the case file: shape, material, mu_0 and mean depth count, and no [pull]; - is standard input"
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
-    frequency = read_as("a frequency such as 5Hz", lambda text: positive("", value_in("", text, "Hz")))
+    frequency = plain_number("Hz", "a frequency such as 5Hz", partial(positive, ""))
     above = "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; one of its"
     above += " periods at either end of the record is uncertain and left out"
     command.add_argument("--high-pass", metavar="5Hz", type=frequency, help=above)
@@ -49,7 +49,6 @@ def record(args: argparse.Namespace, _: None) -> int:
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {fault}") from None
-    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "late_cof", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
@@ -57,7 +56,9 @@ def record(args: argparse.Namespace, _: None) -> int:
     values["left_out"] = whole - kept
     pull = "" if case.pull.is_rigid else "\nwithout [pull]: a record is the way of the indenter itself, held rigidly"
     ends = f"\nleft out: {whole - kept:.4g} of {whole:.4g} s, both ends, where the high-pass makes displacements "
-    return answer(args, values, f"{found}{pull}{ends + 'uncertain' if kept < whole else ''}", case)
+    answer(args, values, f"{found}{pull}{ends + 'uncertain' if kept < whole else ''}", case)
+    write_found(args, found.plot, found.table(), "", mdr.write_case(case))
+    return Exit.DONE
 
 
 def with_displacements(

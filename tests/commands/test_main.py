@@ -360,6 +360,7 @@ NO_VELOCITY, NO_SHARE = (
 WRONG = [
     *((f"run {{punch}} --v-0 {v}", "--v-0 must be above zero") for v in ("0", "-1e-3", "-0.5v_c")),
     *((f"run {{punch}} --v-0 '{v}'", f"{NO_VELOCITY} '{v}'") for v in ("nan", "inf", "v_c", "", "1e-3km/s", "5 N")),
+    ("curve {punch} --v-0 1e-3 ''", f"{NO_VELOCITY} ''"),
     ("run {punch} --v-0 1,5", "a velocity: 1,5 is no number, write 1.5 with a decimal point"),
     ("run {punch}", "the following arguments are required: --v-0"),
     ("run {punch} --v-0 1e-3 --n-springs 31", "argument --n-springs"),
@@ -456,16 +457,22 @@ def test_a_wrong_file_is_status_2_with_every_fault(capsys, tmp_path):
     assert all(line.startswith(f"mdr: {path}: ") for line in err.splitlines())
 
 
-@pytest.mark.parametrize("command", [["curve", "--points", "2"], ["tolerance", "--v-0", "1mm/s", "--fields", "mu_0"]])
-def test_a_full_disk_names_the_file_and_its_disk_and_costs_no_result(capsys, punch, tmp_path, monkeypatch, command):
+@pytest.mark.parametrize(
+    "line",
+    ["curve {punch} --points 2", "tolerance {punch} --v-0 1mm/s --fields mu_0", "record motion.csv {punch}"],
+)
+def test_a_full_disk_names_the_file_and_its_disk_and_costs_no_result(capsys, punch, tmp_path, monkeypatch, line):
     def full(path, data):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("mdr.cof_curve", made_up_curve)
     monkeypatch.setattr("mdr.commands.written.write_whole", full)
-    out, err = words_of(capsys, [command[0], punch, *command[1:], "-o", str(tmp_path / "out")], 1)
-    assert "0.3" in out
-    file = tmp_path / "out" / f"{command[0]}.csv"
+    Path("motion.csv").write_text("t [ms], u_x [um], u_z [um]\n0, 0, 2\n1, 1, 2\n2, 0, 2\n")
+    command = line.format(punch=punch).split()
+    out, err = words_of(capsys, [*command, "-o", "out"], 1)
+    assert len(out.splitlines()) > 2
+    file = f"out/{command[0]}.csv"
     assert re.fullmatch(rf"mdr: {file}: cannot be written: No space .*; .* MB are free on the disk of .*\n", err)
 
 
