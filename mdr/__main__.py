@@ -18,6 +18,7 @@ import sys
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
+from importlib import import_module
 from itertools import takewhile
 from pkgutil import resolve_name
 from typing import Any, NamedTuple
@@ -36,58 +37,40 @@ CASES, STUDIES = "`mdr case > case.toml` makes one", "a case file with [axes], w
 class Command(NamedTuple):
     """A command; what it stands on is imported when it is asked for."""
 
-    work: str  #: module and function below `mdr.commands`
+    work: str  #: module and function below `mdr.commands`; its options are added by add_options_of_<function> beside it
     summary: str
     reads: str = ""  #: what reads its file; none of what takes no file, or more than one
-    options: str = ""  #: function of the same module that adds its options
 
 
 CASE, SAID = "mdr.given.case_file:read_case", "mdr.given.case_file:read_said"
 COMMANDS = {
     "velocity": Command(
         "velocity:velocity", "critical velocity and static friction in closed form, without a run", CASE),
-    "run": Command(
-        "run:run", "one velocity: friction with its error, and the springs that stick and slip", CASE,
-        "add_options_of_run"),
-    "curve": Command(
-        "curve:curve", "coefficient of friction over pulling velocity, by simulation", CASE, "add_options"),
+    "run": Command("run:run", "one velocity: friction with its error, and the springs that stick and slip", CASE),
+    "curve": Command("curve:curve", "coefficient of friction over pulling velocity, by simulation", CASE),
     "half-space": Command(
-        "run:half_space", "one velocity in three dimensions: friction with its errors, and a map", CASE,
-        "add_options_of_half_space"),
-    "measure": Command("judge:measure", "critical velocity from simulation alone", CASE, "add_accuracy_of_bracket"),
-    "verdict": Command(
-        "judge:verdict", "how good the closed-form v_c is, and what to use in its place", CASE, "add_options"),
-    "fit": Command("fit:fit", "parameters of the case from measured friction over velocity", SAID, "add_options"),
-    "find": Command(
-        "ask:find", "the value of one number that brings about a friction, or a critical velocity", SAID,
-        "add_options_of_find"),
+        "run:half_space", "one velocity in three dimensions: friction with its errors, and a map", CASE),
+    "measure": Command("judge:measure", "critical velocity from simulation alone", CASE),
+    "verdict": Command("judge:verdict", "how good the closed-form v_c is, and what to use in its place", CASE),
+    "fit": Command("fit:fit", "parameters of the case from measured friction over velocity", SAID),
+    "find": Command("ask:find", "the value of one number that brings about a friction, or a critical velocity", SAID),
     "tolerance": Command(
-        "ask:tolerance", "friction and critical velocity as each input alone is a little less and more", SAID,
-        "add_options_of_tolerance"),
-    "record": Command(
-        "record:record", "friction under a recorded motion, from a CSV file and a case file", options="add_options"),
+        "ask:tolerance", "friction and critical velocity as each input alone is a little less and more", SAID),
+    "record": Command("record:record", "friction under a recorded motion, from a CSV file and a case file"),
     "indenter": Command(
-        "tables:indenter", "a table [indenter] from measured heights, or force over depth, in a CSV file",
-        options="add_options_of_indenter"),
+        "tables:indenter", "a table [indenter] from measured heights, or force over depth, in a CSV file"),
     "material": Command(
-        "tables:material", "a table [material] from measured moduli, relaxation, creep or arms, in a CSV file",
-        options="add_options_of_material"),
-    "motion": Command(
-        "tables:motion", "a table [oscillation] from what an accelerometer recorded, from a CSV file",
-        options="add_options_of_motion"),
-    "export": Command(
-        "export:export", "the contact as a C header or a unit for co-simulation (FMI 2.0)", CASE, "add_options"),
+        "tables:material", "a table [material] from measured moduli, relaxation, creep or arms, in a CSV file"),
+    "motion": Command("tables:motion", "a table [oscillation] from what an accelerometer recorded, from a CSV file"),
+    "export": Command("export:export", "the contact as a C header or a unit for co-simulation (FMI 2.0)", CASE),
     "sweep": Command(
         "sweep:sweep", "a grid of cases, from a study file; the same call goes on after any end",
-        "mdr.studies.study_files:read_study_file", "add_options"),
-    "explore": Command("explore:explore", "a page in the browser to try a case with sliders", options="add_options"),
-    "shapes": Command(
-        "begin:shapes", "the shapes, materials and motions that a file can name, and their keys",
-        options="add_options_of_shapes"),
-    "case": Command("begin:case", "a commented case file to begin with", options="add_options"),
+        "mdr.studies.study_files:read_study_file"),
+    "explore": Command("explore:explore", "a page in the browser to try a case with sliders"),
+    "shapes": Command("begin:shapes", "the shapes, materials and motions that a file can name, and their keys"),
+    "case": Command("begin:case", "a commented case file to begin with"),
     "warm": Command("warm:warm", "compile all that runs without tau_0 need, once on this machine"),
-    "completion": Command(
-        "completion:completion", "a script that completes commands and options in the shell", options="add_options"),
+    "completion": Command("completion:completion", "a script that completes commands and options in the shell"),
 }  # fmt: skip
 _FAILURES = (ValueError, ArithmeticError, RuntimeError, OSError, MemoryError, PlausibilityWarning)  # as an error
 
@@ -168,17 +151,18 @@ class _Parser(argparse.ArgumentParser):
         command, self.command = self.command, None
         if command is None:
             return self
-        module = f"mdr.commands.{command.work.partition(':')[0]}"
+        name, _, function = command.work.partition(":")
+        module = import_module(f"mdr.commands.{name}")
         read = resolve_name(command.reads) if command.reads else None
-        self.set_defaults(work=resolve_name(f"mdr.commands.{command.work}"), read=read)
+        self.set_defaults(work=getattr(module, function), read=read)
         if read is not None:
             file, begin = ("study", STUDIES) if "study" in command.reads else ("case", CASES)
             self.add_argument(
                 "case", metavar=f"{file}.toml", type=path_of, help=f"the {file} file; {begin}; - is standard input"
             )
             self.usage = f"%(prog)s {file}.toml [options]"  # a list of values would take the file for one
-        if command.options:
-            resolve_name(f"{module}:{command.options}")(self)
+        if add_options := getattr(module, f"add_options_of_{function}", None):
+            add_options(self)
         return self
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:

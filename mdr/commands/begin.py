@@ -14,7 +14,7 @@ from mdr.tools.fields import facts_of
 from mdr.tools.messages import offer
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_case(command: argparse.ArgumentParser) -> None:
     """The parts of the example."""
     for option, kind, usual, meaning in (
         ("example", "shape", "Paraboloid", "its shape"),

@@ -28,7 +28,7 @@ complete -o default -F _mdr mdr"""
 ZSH = "autoload -U +X compinit && compinit\nautoload -U +X bashcompinit && bashcompinit\n"
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_completion(command: argparse.ArgumentParser) -> None:
     """The shell."""
     command.add_argument("shell", choices=tuple(USE), help="the shell that reads the script")
     command.epilog = "\n".join(["how each shell takes it:", *(f"  {shell}: {how}" for shell, how in USE.items())])

@@ -16,7 +16,7 @@ from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, make_folder, write_found
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_curve(command: argparse.ArgumentParser) -> None:
     """Where to write, and over which velocities."""
     add_output(command, "curve.csv", "curve.png", "curve.svg")
     add_accuracy(command, "bound on the error of the COF that is asked for, as a share of full friction")

@@ -17,7 +17,7 @@ INSTALL = (
 )
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_explore(command: argparse.ArgumentParser) -> None:
     """The case, the port, and whether a browser is opened."""
     file = "the case file; - is standard input (default: the example of mdr case)"
     command.add_argument("case", metavar="case.toml", nargs="?", type=path_of, help=file)

@@ -20,7 +20,7 @@ from mdr.tools.checks import positive
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,39}")  #: what names in C may begin with
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_export(command: argparse.ArgumentParser) -> None:
     """Where to write, how deep and how fine."""
     files = "the header, name.h, or the unit, name.fmu; all names in it begin with this one"
     command.add_argument("-o", "--output", metavar="file", type=Path, required=True, help=files)

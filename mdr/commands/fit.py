@@ -15,7 +15,7 @@ from mdr.given.case_file import Said
 from mdr.tools.notation import value_in
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_fit(command: argparse.ArgumentParser) -> None:
     """The data, what is fitted to them, and where to write."""
     columns = "measured friction: columns v_0 [mm/s], cof and, if known, error"
     command.add_argument("data", metavar="data.csv", type=path_of, help=columns)

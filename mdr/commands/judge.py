@@ -14,19 +14,19 @@ from mdr.friction.verdict import Verdict
 from mdr.tools.checks import between
 
 
-def add_accuracy_of_bracket(command: argparse.ArgumentParser) -> None:
+def add_options_of_measure(command: argparse.ArgumentParser) -> None:
     """How narrow the bracket of the measurement is to be."""
     add_accuracy(command, "a quarter of the width of the bracket of v_c, over v_c")
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_verdict(command: argparse.ArgumentParser) -> None:
     """How far off a good formula may be."""
     must_be = "a share above 0 and below 1, such as 1% or 0.01"
     share = plain_number("-", must_be, partial(between, "", low=0, high=1))
     usual = f"{100 * Verdict.within:g}%%"
     meaning = f"call the formula good if it is no further off than this: 1%% or 0.01 (default: {usual})"
     command.add_argument("--within", metavar="share", type=share, default=Verdict.within, help=meaning)
-    add_accuracy_of_bracket(command)
+    add_options_of_measure(command)
     said = "also say how far off springs are in three dimensions: one more run, of some ten seconds; takes a rigid pull"
     command.add_argument("--three-dimensions", action="store_true", help=said)
 

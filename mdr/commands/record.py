@@ -18,7 +18,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_record(command: argparse.ArgumentParser) -> None:
     """The motion, and where to write."""
     what = "columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, a_y, a_z"
     command.add_argument("motion", metavar="motion.csv", type=path_of, help=f"motion of the indenter: {what}")

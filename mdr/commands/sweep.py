@@ -17,7 +17,7 @@ from mdr.studies.study_files import StudyFile
 FILES = ("study.nc", "study.csv", "study.png", "study.svg")
 
 
-def add_options(command: argparse.ArgumentParser) -> None:
+def add_options_of_sweep(command: argparse.ArgumentParser) -> None:
     """Where to keep and write the study, and which part of it to compute."""
     command.add_argument("--store", metavar="folder", type=Path, help="keep finished chunks here, and go on from them")
     add_output(command, *FILES)
