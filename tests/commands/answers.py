@@ -2,7 +2,14 @@
 
 import json
 
+import mdr
 from mdr.__main__ import main
+
+
+def file_of(case, path):
+    """Write a case to a file; the name of the file, as a command line has it."""
+    path.write_text(mdr.write_case(case), encoding="utf-8")
+    return str(path)
 
 
 def words_of(capsys, command, status=0):

@@ -8,11 +8,10 @@ from types import SimpleNamespace
 
 import matplotlib as mpl
 import pytest
-from answers import json_of, words_of
+from answers import file_of, json_of, words_of
 from conftest import contact
 
 import mdr
-from mdr.__main__ import main
 
 
 @pytest.fixture(autouse=True)
@@ -50,9 +49,8 @@ def test_it_serves_until_an_interrupt(capsys, server):
 
 
 def test_it_opens_no_browser_and_speaks_to_machines_where_asked(capsys, server):
-    assert (
-        json_of(capsys, ["explore", "--no-browser", "--json", "--port", "5100"])["address"] == "http://127.0.0.1:5100/"
-    )
+    told = json_of(capsys, ["explore", "--no-browser", "--json", "--port", "5100"])
+    assert told["address"] == "http://127.0.0.1:5100/"
     assert "shows /" not in server
 
 
@@ -62,8 +60,8 @@ def test_it_opens_no_browser_and_speaks_to_machines_where_asked(capsys, server):
      ("https://lab.example", "https://lab.example/"), ("8080", "http://localhost:8080/")],
 )  # fmt: skip
 def test_behind_a_tunnel_it_prints_the_address_there(capsys, server, given, address):
-    assert main(["explore", "--port", "5100", "--address", given]) == 0
-    assert capsys.readouterr().out.startswith(f"mdr explore: {address}, served at http://127.0.0.1:5100/")
+    said = words_of(capsys, ["explore", "--port", "5100", "--address", given]).out
+    assert said.startswith(f"mdr explore: {address}, served at http://127.0.0.1:5100/")
     assert "shows /" not in server  # no browser here knows that address
 
 
@@ -94,21 +92,17 @@ def test_a_wrong_file_is_status_2(capsys, tmp_path):
 
 def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
     pytest.importorskip("panel")
-    path = tmp_path / "case.toml"
-    case = replace(
-        contact("flat"), indenter=mdr.ConcavePunch(1e-3, 1.0), oscillation=mdr.LoadOscillation(1e-9, 1e-10, 300)
-    )
-    path.write_text(mdr.write_case(case))
-    assert str(path) in words_of(capsys, ["explore", str(path)], 2).err
+    punch, load = mdr.ConcavePunch(1e-3, 1.0), mdr.LoadOscillation(1e-9, 1e-10, 300)
+    path = file_of(replace(contact("flat"), indenter=punch, oscillation=load), tmp_path / "case.toml")
+    assert path in words_of(capsys, ["explore", path], 2).err
 
 
 def test_a_port_that_is_taken_is_status_2(capsys):
     pytest.importorskip("panel")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        assert (
-            f"port {port} cannot be used (" in words_of(capsys, ["explore", "--no-browser", "--port", str(port)], 2).err
-        )
+        said = words_of(capsys, ["explore", "--no-browser", "--port", str(port)], 2).err
+    assert f"port {port} cannot be used (" in said
 
 
 def test_without_panel_it_says_how_to_install_it(capsys, monkeypatch):

@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from answers import json_of, words_of
+from answers import file_of, json_of, words_of
 
 import mdr
 from mdr.__main__ import main
@@ -33,17 +33,14 @@ def test_without_a_compiler_the_sources_come_out(tmp_path, monkeypatch, capsys):
 
 def test_a_load_knows_its_depth(tmp_path, capsys):
     load = replace(mdr.read_case(EXAMPLE), oscillation=mdr.LoadOscillation(0.02, 0.005, 300.0))
-    case = tmp_path / "load.toml"
-    case.write_text(mdr.write_case(load), encoding="utf-8")
-    assert json_of(capsys, ["export", str(case), "-o", str(tmp_path / "a.h"), "--json"])["u_z_max"] == pytest.approx(
-        1.05 * mdr.resolved(load).u_z_max
-    )
+    case = file_of(load, tmp_path / "load.toml")
+    told = json_of(capsys, ["export", case, "-o", str(tmp_path / "a.h"), "--json"])
+    assert told["u_z_max"] == pytest.approx(1.05 * mdr.resolved(load).u_z_max)
 
 
 def test_arms_are_refused_and_nothing_is_written(tmp_path, capsys):
     arms = mdr.StandardLinearSolid(E_inf=3e6, E_1=1e6, tau_1=1e-3, nu=0.5)
-    case = tmp_path / "arms.toml"
-    case.write_text(mdr.write_case(replace(mdr.read_case(EXAMPLE), material=arms)), encoding="utf-8")
-    assert main(["export", str(case), "-o", str(tmp_path / "a.fmu")]) != 0
-    assert "not one with Maxwell arms" in capsys.readouterr().err
+    case = file_of(replace(mdr.read_case(EXAMPLE), material=arms), tmp_path / "arms.toml")
+    said = words_of(capsys, ["export", case, "-o", str(tmp_path / "a.fmu")], 1).err
+    assert "not one with Maxwell arms" in said
     assert [one.name for one in tmp_path.iterdir()] == ["arms.toml"]

@@ -10,7 +10,6 @@ from answers import json_of, words_of
 from conftest import contact
 
 import mdr
-from mdr.__main__ import main
 from mdr.given.case_file import read_case
 
 CASE = mdr.write_case(contact("cone", 10 / 3, 0.3, du_z=6e-6))
@@ -26,9 +25,9 @@ def files(tmp_path, monkeypatch):
 
 
 def test_a_fit_is_printed_and_written(files, capsys):
-    assert main([*files, "--free", "mu_0", "--bounds", "mu_0=0.1:1", "-o", "out"]) == 0
+    said = words_of(capsys, [*files, "--free", "mu_0", "--bounds", "mu_0=0.1:1", "-o", "out"])
     found = mdr.fit(read_case("case.toml"), mdr.read_friction_data("data.csv"), ["mu_0"], bounds={"mu_0": (0.1, 1)})
-    assert capsys.readouterr().out == f"{found}\n"
+    assert said.out == f"{found}\n"
     assert read_case("out/fitted.toml") == found.case
     assert Path("out/fitted.toml").read_text().splitlines()[2] == "# 95% intervals:"
     assert {path.name for path in Path("out").iterdir()} == {"fitted.toml", "fit.png", "fit.svg"}

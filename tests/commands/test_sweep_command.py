@@ -54,27 +54,25 @@ def test_a_study_is_written_and_told(file, tmp_path, capsys):
 
 def test_a_folder_gets_all_files(file, tmp_path, capsys, monkeypatch):
     (tmp_path / "v1.2").mkdir()  # a folder, whatever its name
-    assert main(["sweep", file, "-o", str(tmp_path / "v1.2")]) == 0
+    assert words_of(capsys, ["sweep", file, "-o", str(tmp_path / "v1.2")]).err == ""
     assert sorted(os.listdir(tmp_path / "v1.2")) == ["study.csv", "study.nc", "study.png", "study.svg"]
-    assert capsys.readouterr().err == ""
     monkeypatch.setattr("mdr.commands.sweep.write_figure", lambda *args: None)
-    (tmp_path / "new.nc").write_text("mine")
-    assert main(["sweep", file, "-o", str(tmp_path / "new.nc")]) == 0
-    assert capsys.readouterr().err == f"mdr: will be overwritten: {tmp_path / 'new.nc'}\n"
-    assert np.array_equal(mdr.read_study(tmp_path / "new.nc").values, mdr.read_study(tmp_path / "v1.2/study.nc").values)
+    new = tmp_path / "new.nc"
+    new.write_text("mine")
+    assert words_of(capsys, ["sweep", file, "-o", str(new)]).err == f"mdr: will be overwritten: {new}\n"
+    assert np.array_equal(mdr.read_study(new).values, mdr.read_study(tmp_path / "v1.2/study.nc").values)
 
 
 def test_a_study_of_many_axes_has_no_picture_and_says_so(file, tmp_path, capsys):
     (tmp_path / "study.toml").write_text(STUDY + "mu_0 = [0.1, 0.2]\n")
-    assert main(["sweep", file, "-o", str(tmp_path / "study.nc")]) == 0
-    assert "mdr: no picture: a picture has one or two axes" in capsys.readouterr().err
+    said = words_of(capsys, ["sweep", file, "-o", str(tmp_path / "study.nc")]).err
+    assert "mdr: no picture: a picture has one or two axes" in said
     assert not (tmp_path / "study.png").exists()
 
 
 def test_a_store_is_kept_and_shards_fill_it(file, tmp_path, capsys):
     store, out = tmp_path / "store", tmp_path / "study.nc"
-    assert main(["sweep", file, "--store", str(store), "--shard", "1/2", "-o", str(out)]) == 0
-    shown = capsys.readouterr()
+    shown = words_of(capsys, ["sweep", file, "--store", str(store), "--shard", "1/2", "-o", str(out)])
     assert "missing" in shown.out
     assert shown.err == f"mdr: 6 of 12 points are left to the other shards; {out} is not written\n"
     assert not out.exists()
@@ -85,8 +83,8 @@ def test_a_store_is_kept_and_shards_fill_it(file, tmp_path, capsys):
     assert (tmp_path / "again.nc").read_bytes() == (store / "study.nc").read_bytes()
     assert sorted(os.listdir(store)) == ["study.json", "study.nc"]
     (tmp_path / "study.toml").write_text(STUDY.replace("0.05", "0.06"))
-    assert main(["sweep", file, "--store", str(store)]) == 1
-    assert "is the store of another study: axes.indenter is" in capsys.readouterr().err
+    said = words_of(capsys, ["sweep", file, "--store", str(store)], 1).err
+    assert "is the store of another study: axes.indenter is" in said
 
 
 def test_json_is_for_machines(file, capsys):
@@ -103,8 +101,7 @@ def test_json_is_for_machines(file, capsys):
 
 def test_points_that_fail_are_told_and_fail_the_command(file, tmp_path, capsys):
     (tmp_path / "study.toml").write_text(STUDY.replace('"T" = [0.1, 1.0]', '"oscillation.u_z0" = [-1.0, 6e-6]'))
-    assert main(["sweep", file, "-o", str(tmp_path / "study.nc")]) == 1
-    shown = capsys.readouterr()
+    shown = words_of(capsys, ["sweep", file, "-o", str(tmp_path / "study.nc")], 1)
     assert "    6: u_z0 + du_z = -0.999998 m: the indenter never touches" in shown.out
     assert shown.err == "mdr: 6 of 12 points failed, 0 did not settle\n"
     assert json_of(capsys, ["sweep", file, "--json"], 1)["values"]["cof"][0][0][0] is None

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from answers import words_of
 
 import mdr
-from mdr.__main__ import main
 from mdr.given.case_file import parse_case
 
 REST = """
@@ -64,8 +64,7 @@ READ = {
 @pytest.mark.parametrize("command", READ)
 def test_a_table_is_what_python_reads(command, capsys):
     words = command.split()
-    assert main(words) == 0
-    table, expected = capsys.readouterr().out, READ[command]()
+    table, expected = words_of(capsys, words).out, READ[command]()
     assert table.startswith("# ")
     other = '[material]\nmodel = "Elastic"\nE = 3e6\nnu = 0.5\n' if words[0] == "indenter" else ""
     other = other or '[indenter]\nshape = "Cone"\ntheta = 0.1\n'
@@ -78,8 +77,7 @@ def test_what_is_told_of_a_file_names_options(capsys):
     d = np.linspace(-4, 12, 161)
     rows = np.column_stack([d, 1 + 0.4 * np.maximum(d, 0) ** 1.5])
     np.savetxt("all.csv", rows, header="d [um], F [mN]", comments="", delimiter=",")
-    assert main(["indenter", "all.csv", "--E-star", "4MPa"]) == 0
-    said = capsys.readouterr().err
+    said = words_of(capsys, ["indenter", "all.csv", "--E-star", "4MPa"]).err
     assert "are taken, as found" in said
     assert "with --tip sharp the touch would be" in said
 
@@ -99,5 +97,4 @@ def test_what_is_told_of_a_file_names_options(capsys):
     ],
 )
 def test_what_does_not_fit_is_refused_in_options(command, words, capsys):
-    assert main(command.split()) == 2
-    assert words in capsys.readouterr().err
+    assert words in words_of(capsys, command.split(), 2).err
