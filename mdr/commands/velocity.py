@@ -18,6 +18,7 @@ from mdr.closed_forms.laws.across import full_across
 from mdr.closed_forms.laws.strength import has_edge_law
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
 from mdr.normal.normal_force import full_cof, mean_normal_force
+from mdr.tools.summary import number
 
 if TYPE_CHECKING:
     from mdr.friction.shaken import HoldingBand
@@ -35,11 +36,11 @@ def velocity(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     groups = [("chi", known.chi, shake), *([("eta", known.eta, across)] if case.moves_across else [])]
     told = [
         *_velocities(case),
-        Told("alpha", known.alpha, "alpha", f"{known.alpha:.6g}", amplitude),
-        *(Told(name, value, name, f"{value:.6g}", meaning) for name, value, meaning in groups if case.is_shaken),
+        told_number("alpha", known.alpha, "alpha", "-", amplitude),
+        *(told_number(name, value, name, "-", meaning) for name, value, meaning in groups if case.is_shaken),
         Told("T", case.T),
-        *([] if case.is_shaken else [Told("loss_tangent", loss, "loss", f"{loss:.6g}", tangent)]),
-        Told("mindlin_ratio", kappa, "kappa", "" if case.is_shaken else f"{kappa:.6g}", "E*/G*, Mindlin ratio"),
+        *([] if case.is_shaken else [told_number("loss_tangent", loss, "loss", "-", tangent)]),
+        Told("mindlin_ratio", kappa, "kappa", "" if case.is_shaken else number(kappa), "E*/G*, Mindlin ratio"),
         Told("keeps_contact", known.keeps_contact, "contact", contact, "at its centre, Eq. (5)"),
         *_size(known),
     ]
@@ -66,32 +67,31 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         rigid = mdr.critical_velocity(replace(case, pull=mdr.RigidPull()))
         told.append(told_velocity("v_c_rigid", rigid, "rigid", "the same contact pulled rigidly, Eq. (1)"))
     if not case.is_shaken:
-        static = mdr.static_cof(case)
         known = mdr.resolved(case)
         full = f"; in full slip {full_cof(known):.6g}" if case.tau_0 else ""
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}{full}"
-        told.append(Told("static_cof", static, "static COF", f"{static:.6g}", rest))
+        told.append(told_number("static_cof", mdr.static_cof(case), "static COF", "-", rest))
         if has_edge_law(known):
             back, most = mdr.laws.velocity_of_share(known, 1 - NEARLY), f"{100 - 100 * NEARLY:g} %"
             half_space = mdr.laws.velocity_of_share(known, 1 - NEARLY, half_space=True)
             meaning = f"velocity from which at least {most} of full friction is back; {half_space:.3g} on a half-space"
-            told.append(Told("nearly_full", back, most, f"{back:.6g} m/s", meaning))
+            told.append(told_number("nearly_full", back, most, "m/s", meaning))
     return [*told, Told("mu_0", case.mu_0), *ends_of(case)]
 
 
 def _across(case: mdr.SlidingContact) -> list[Told]:
     """What a contact has that is shaken across: no critical velocity, and where friction is nearly full."""
-    fastest, known = case.fastest_across, mdr.resolved(case)
+    known = mdr.resolved(case)
     told = [
         told_velocity("v_c", math.inf, "v_c", "critical velocity either way, shaken across the pull"),
         *(Told(key, math.inf) for key in ("v_c_back", "full_slip", "full_slip_back")),
-        Told("fastest_across", fastest, "across", f"{fastest:.6g} m/s", "greatest velocity of the shake across"),
+        told_number("fastest_across", case.fastest_across, "across", "m/s", "greatest velocity of the shake across"),
     ]
     if is_across_alone(known) and not case.tau_0:
         full, most = full_across(known, NEARLY), f"{100 - 100 * NEARLY:g} %"
         meaning = f"velocity from which friction is at least {most} of mu_0 (mdr.laws.lost_across)"
         if math.isfinite(full):
-            told.append(Told("nearly_full", full, most, f"{full:.6g} m/s", meaning))
+            told.append(told_number("nearly_full", full, most, "m/s", meaning))
     return told
 
 
@@ -100,29 +100,33 @@ def told_velocity(key: str, v: float | None, name: str, meaning: str) -> Told:
     return Told(key, v, name, velocity_text(v), meaning)
 
 
+def told_number(key: str, value: float, name: str, unit: str, meaning: str) -> Told:
+    """A number of six digits, with its unit."""
+    return Told(key, value, name, number(value, unit), meaning)
+
+
 def _size(known: mdr.SlidingContact) -> list[Told]:
     """The numbers by which a mistake in a case file shows: how large, how steep, how loaded, how stiff."""
-    d, load = known.contact_depth, mean_normal_force(known)
+    d = known.contact_depth
     a, slope = edge(known.indenter, d)
     deepest = float(known.indenter.contact_radius(known.u_z_max))
     pressures = known.indenter.pressure(deepest * np.linspace(0.01, 0.99, 99), known.u_z_max, known.material.E_star)
-    peak = float(np.max(pressures))
     k_zc = float(known.indenter.stiffness(d, known.material.E_star))
-    k_xc = k_zc / known.material.mindlin_ratio
     ratios = [known.pull.omega_0 / one for one in frequencies(known)]
     ratio = None if known.pull.is_rigid else min(ratios, key=lambda one: abs(math.log(one)))
     body = "rigid" if ratio is None else "no mass" if math.isinf(ratio) else f"{ratio:.6g}"
     m_z = getattr(known.oscillation.load, "m_z", 0.0)
     bounce = math.sqrt(k_zc / m_z) / known.oscillation.omega if m_z > 0 else None
+    at_full_depth = "greatest at full depth, of r = 0.01 a to 0.99 a"
     natural = "natural frequency of the body over that of the vibration, omega_0/omega"
     bounces = "natural frequency of m_z on the contact over that of the load"
     return [
-        Told("contact_radius", a, "radius", f"{a:.6g} m", f"of the contact at the depth of {d:.4g} m"),
-        Told("edge_slope", slope, "slope", f"{slope:.6g}", "of the shape at the edge of the contact; well below 1"),
-        Told("mean_load", load, "load", f"{load:.6g} N", "mean normal force over a period"),
-        Told("peak_pressure", peak, "pressure", f"{peak:.6g} Pa", "greatest at full depth, of r = 0.01 a to 0.99 a"),
-        Told("k_zc", k_zc, "k_zc", f"{k_zc:.6g} N/m", "normal stiffness of the contact"),
-        Told("k_xc", k_xc, "k_xc", f"{k_xc:.6g} N/m", "tangential stiffness of the contact"),
+        told_number("contact_radius", a, "radius", "m", f"of the contact at the depth of {d:.4g} m"),
+        told_number("edge_slope", slope, "slope", "-", "of the shape at the edge of the contact; well below 1"),
+        told_number("mean_load", mean_normal_force(known), "load", "N", "mean normal force over a period"),
+        told_number("peak_pressure", float(pressures.max()), "pressure", "Pa", at_full_depth),
+        told_number("k_zc", k_zc, "k_zc", "N/m", "normal stiffness of the contact"),
+        told_number("k_xc", k_zc / known.material.mindlin_ratio, "k_xc", "N/m", "tangential stiffness of the contact"),
         Told("omega_0_over_omega", ratio, "body", body, natural),
         Told("omega_z_over_omega", bounce, "m_z", "" if bounce is None else f"{bounce:.6g}", bounces),
         Told("at_depth", d),

@@ -69,11 +69,10 @@ class Curve:
             self.ghost = self.complete
         self.shown = picture
         per = self._hold(picture)
-        v, cof, curve, run, band = picture.v_0 * per, picture.cof, picture.curve, picture.run, picture.band
+        v, curve, run, band = picture.v_0 * per, picture.curve, picture.run, picture.band
         cof_y = None if curve is None else curve.cof_y
-        for source, values in ((self.line, cof), (self.across, cof_y)):
+        for source, values in ((self.line, picture.cof), (self.across, cof_y), (self.rigid, picture.rigid)):
             source.data = line_of(v, values)
-        self.rigid.data = line_of(v, picture.rigid)
         self.points.data = {"v_0": [], "cof": [], "fill": []}
         if curve is not None:
             fill = np.where(curve.settled, COLOURS[0], "#ffffff").tolist()

@@ -368,7 +368,6 @@ WRONG = [
     *((f"verdict {{punch}} '--within={v}'", f"argument --within: {NO_SHARE}, such as 1% or 0.01, got '{v}'")
       for v in ("0", "-0.01", "-1%", "nan", "inf", "1", "100%", "nan%", "1%%", "%", "", "one", "0,01")),
     ("velocity {study}", "[axes] makes it a study file, not a case file; `mdr sweep` reads it"),
-    ("case --example coen", "did you mean Cone"),
     *((f"export {{punch}} -o {one}", "must end in .h") for one in ("contact.txt", "contact")),
     *((f"export {{punch}} -o {one}.h", "a word for names in C") for one in ("2nd", "a-b", "_a", "größe", "a" * 41)),
     ("export {punch} -o no/such/folder/a.h", "there is no folder"),
@@ -395,7 +394,6 @@ WRONG = [
     *((f"sweep {{study}} --store store -o {one}", f"mdr: {words}: the store keeps its own study.nc there")
       for one, words in (("store", "store"), ("./store/study.nc", "store/study.nc"))),
     ("sweep {study} --json --shard 1/2", "mdr: a shard needs a store"),
-    ("sweep {study} --store store --shard 3/2", "mdr: shard must be k/n"),
     ("'no such'", "'no such' is no command; there are velocity, run, "),
     *((nothing, word) for nothing in ("", "--json") for word in ("velocity", "verdict")),  # the help
 ]  # fmt: skip
