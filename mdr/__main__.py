@@ -134,11 +134,10 @@ def _require_one_standard_input(args: argparse.Namespace) -> None:
 
 def _read(args: argparse.Namespace) -> Any:
     """What the file describes; what is unlikely of it is warned of."""
-    case = args.read(args.case)
-    base = case if isinstance(case, mdr.SlidingContact) else getattr(case, "case", None)  # of a study
-    for doubt in mdr.plausibility(base) if base is not None else ():
+    found = args.read(args.case)
+    for doubt in mdr.plausibility(getattr(found, "case", found)):  # of a study its case
         warn_outside(doubt)
-    return case
+    return found
 
 
 class _Parser(argparse.ArgumentParser):

@@ -2,7 +2,6 @@
 
 import logging
 import socket
-import sys
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -12,6 +11,12 @@ from answers import file_of, json_of, words_of
 from conftest import contact
 
 import mdr
+
+pytest.importorskip("panel")
+from bokeh.server.util import check_allowlist
+from tornado.websocket import WebSocketClosedError
+
+from mdr.explorer.server import in_own_words, is_worth_saying, server_of
 
 
 @pytest.fixture(autouse=True)
@@ -24,7 +29,6 @@ def pictures():
 @pytest.fixture
 def server(monkeypatch):
     """A server that is interrupted as soon as it listens; what happened to it."""
-    pytest.importorskip("panel")
     said = []
 
     def wait():
@@ -66,11 +70,6 @@ def test_behind_a_tunnel_it_prints_the_address_there(capsys, server, given, addr
 
 
 def test_a_page_by_another_address_is_let_in_where_it_is_named(capsys):
-    pytest.importorskip("panel")
-    from bokeh.server.util import check_allowlist
-
-    from mdr.explorer.server import in_own_words, server_of
-
     for address, let_in in (("", False), ("http://localhost:8080/", True)):
         server, own = server_of(contact("flat"), 0, address)
         origins = server._tornado.websocket_origins
@@ -84,39 +83,21 @@ def test_a_page_by_another_address_is_let_in_where_it_is_named(capsys):
     assert in_own_words(logging.LogRecord("bokeh", 40, "", 0, "something else", (), None))
 
 
-def test_a_wrong_file_is_status_2(capsys, tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text("mu_0 = \n")
-    assert words_of(capsys, ["explore", str(path)], 2).err.startswith(f"mdr: {path}: line 1: ")
-
-
 def test_a_load_without_a_depth_is_status_2(capsys, tmp_path):
-    pytest.importorskip("panel")
     punch, load = mdr.ConcavePunch(1e-3, 1.0), mdr.LoadOscillation(1e-9, 1e-10, 300)
     path = file_of(replace(contact("flat"), indenter=punch, oscillation=load), tmp_path / "case.toml")
     assert path in words_of(capsys, ["explore", path], 2).err
 
 
 def test_a_port_that_is_taken_is_status_2(capsys):
-    pytest.importorskip("panel")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         said = words_of(capsys, ["explore", "--no-browser", "--port", str(port)], 2).err
     assert f"port {port} cannot be used (" in said
 
 
-def test_without_panel_it_says_how_to_install_it(capsys, monkeypatch):
-    monkeypatch.delitem(sys.modules, "mdr.explorer.server", raising=False)
-    monkeypatch.setitem(sys.modules, "panel", None)
-    assert ".[explore]" in words_of(capsys, ["explore"], 2).err
-
-
 def test_a_page_that_is_closed_is_no_fault():
     """A picture on its way to it is lost, of which the server would print a traceback."""
-    pytest.importorskip("panel")
-    from tornado.websocket import WebSocketClosedError
-
-    from mdr.explorer.server import is_worth_saying
 
     def told(error):
         return is_worth_saying(logging.LogRecord("asyncio", 40, "", 0, "", None, error and (type(error), error, None)))

@@ -1,7 +1,5 @@
 """`mdr fit`: the table, the files and the JSON of a fit, and what wrong input is told."""
 
-import sys
-from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import numpy as np
@@ -48,11 +46,6 @@ def test_machines_are_told_what_is_not_determined(files, capsys):
 def test_a_fault_of_the_data_names_their_file(files, capsys):
     Path("data.csv").write_text(DATA.replace("0.49", "high"))
     assert "data.csv: line 4: high is no number (column cof)" in words_of(capsys, [*files, "--free", "mu_0"], 2).err
-
-
-def test_standard_input_stands_for_one_file(files, capsys, monkeypatch):
-    monkeypatch.setattr(sys, "stdin", TextIOWrapper(BytesIO(CASE.encode("utf-8")), encoding="utf-8"))
-    assert "standard input can be read once" in words_of(capsys, ["fit", "-", "-", "--free", "mu_0"], 2).err
 
 
 def test_a_load_of_the_file_holds_while_the_modulus_is_fitted(files, capsys):

@@ -379,6 +379,7 @@ WRONG = [
     ("fit {punch} {data} --free taw", "taw is no parameter of this case"),
     ("fit {punch} {data} --free mu_0 --bounds mu_0=0.1-1", "must be name=low:high, such as material.tau=1e-5:1e-1"),
     ("fit {punch} {data} --free mu_0 -o {data}", "data.csv: no folder to write to"),
+    ("fit - - --free mu_0", "standard input can be read once"),
     ("fit {punch} {data}", "the following arguments are required: --free"),
     ("find {punch} du_y --v-c 1", "du_y is no parameter"),
     *((f"find {{punch}} {words}", "give one wish") for words in ("du_z --v-0 1", "E")),
@@ -386,6 +387,7 @@ WRONG = [
     ("tolerance {punch} --v-0 10mm/s --fields lode", "lode"),
     *((f"explore --address {one}", "must be localhost:8080") for one in ("8080:", "ftp://x", "http://",
       "localhost:99999")),
+    ("explore {data}", "mdr: data.csv: line 1: "),
     ("explore --port 65536", "must be a whole number from 0 to 65535, got '65536'"),
     ("sweep {study}", "mdr: the study would be lost: give -o folder, --store folder, or --json"),
     ("sweep {study} -o study.txt", "mdr: study.txt: a study is written as .nc or .csv"),
@@ -474,6 +476,12 @@ def test_a_folder_that_cannot_be_is_found_before_the_work(capsys, tmp_path):
     assert "curve.csv: is a folder, where a file is to be written" in capsys.readouterr().err
     assert main(["curve", EXAMPLE, "-o", "/proc/self"]) in (1, 2)  # root may write anywhere, but not there
     assert "Traceback" not in capsys.readouterr().err
+
+
+def test_without_panel_the_explorer_says_how_to_install_it(capsys, monkeypatch):
+    monkeypatch.delitem(sys.modules, "mdr.explorer.server", raising=False)
+    monkeypatch.setitem(sys.modules, "panel", None)
+    assert ".[explore]" in words_of(capsys, ["explore"], 2).err
 
 
 @pytest.mark.parametrize(
