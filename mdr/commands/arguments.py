@@ -144,7 +144,7 @@ class Asked(NamedTuple):
                 )
             return self.number * (case.mu_0 if self.of else 1)
         v_c = mdr.critical_velocity(case, -1 if self.number < 0 else 1)
-        if wrong := _no_scale(v_c):
+        if wrong := no_scale(v_c):
             raise WrongInput(f"{self.number:g} v_c: {wrong}; give the velocity in m/s")
         return self.number * v_c
 
@@ -174,14 +174,6 @@ def add_velocity(command: argparse.ArgumentParser) -> None:
     command.usage = "%(prog)s case.toml --v-0 velocity [options]"
 
 
-def stand_in_of_v_c(case: mdr.SlidingContact) -> str:
-    """What stands in the place of v_c in a curve's velocities, in a sentence; empty where v_c does."""
-    from mdr.closed_forms.critical_velocity import velocity_scale
-
-    wrong = _no_scale(mdr.critical_velocity(case))
-    return wrong and f"{wrong}: velocities are multiples of {velocity_scale(case):.6g} m/s in its place"
-
-
-def _no_scale(v_c: float) -> str:
+def no_scale(v_c: float) -> str:
     """Why velocities cannot be multiples of this v_c; empty where they can."""
     return "" if 0 < v_c < math.inf else f"v_c is {'zero' if v_c == 0 else 'infinite'} here"

@@ -10,7 +10,7 @@ import numpy as np
 
 import mdr
 from mdr.closed_forms.critical_velocity import POINTS, UP_TO, velocity_scale
-from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, stand_in_of_v_c, velocity, whole_number
+from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, no_scale, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
 from mdr.commands.velocity import ends_of, equation_of
 from mdr.commands.written import add_output, make_folder, write_found
@@ -61,8 +61,8 @@ def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[floa
     asked = args.up_to or Asked(UP_TO, OF_V_C)
     if asked.number <= 0:
         raise WrongInput(f"--up-to must be above zero, got {asked.number:.6g}")
-    if asked.of and (said := stand_in_of_v_c(case)):
-        complain(said)
+    if asked.of and (wrong := no_scale(mdr.critical_velocity(case))):
+        complain(f"{wrong}: velocities are multiples of {velocity_scale(case):.6g} m/s in its place")
     of = _v_c_or_scale if args.up_to else velocity_scale
     forward, back = (asked.number * (of(one) if asked.of else 1) for one in (case, case.mirrored))
     found: list[float] = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS).tolist()
@@ -72,7 +72,7 @@ def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[floa
 def _v_c_or_scale(case: mdr.SlidingContact) -> float:
     """v_c [m/s], or what stands in its place where it is infinite or zero."""
     v_c = mdr.critical_velocity(case)
-    return v_c if 0 < v_c < math.inf else velocity_scale(case)
+    return velocity_scale(case) if no_scale(v_c) else v_c
 
 
 def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:
