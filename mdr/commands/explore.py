@@ -54,10 +54,8 @@ def explore(args: argparse.Namespace, _: None) -> int:
         way_out = "give another, or --port 0 for a free one"
         raise WrongInput(f"port {args.port} cannot be used ({reason}); {way_out}") from None
     server.start()
-    served = f"mdr explore: {own} on this machine alone; end it with Ctrl-C"
-    if args.address:
-        served = f"mdr explore: {args.address}, served at {own} on this machine; end it with Ctrl-C"
-    answer(args, {"address": args.address or own}, served, case)
+    where = f"{args.address}, served at {own} on this machine" if args.address else f"{own} on this machine alone"
+    answer(args, {"address": args.address or own}, f"mdr explore: {where}; end it with Ctrl-C", case)
     if not (args.no_browser or args.address):
         server.show("/")
     try:

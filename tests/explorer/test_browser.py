@@ -124,7 +124,7 @@ def test_the_link_restores_the_state(browser):
 
 
 def test_a_file_with_a_load_says_that_the_page_holds_the_depth(browser):
-    path = Path(browser.folder / "load.toml")
+    path = browser.folder / "load.toml"
     path.write_text(mdr.write_case(CASE).replace("u_z0 = 2e-05", 'load = "0.3 N"'), encoding="utf-8")
     browser.inside(named("upload", "case"), "input[type=file]").send_keys(str(path))
     browser.until(lambda: any("load = 300 mN: the page holds the depth" in line for line in browser.text(".doubted")))
@@ -141,7 +141,7 @@ def test_the_case_is_downloaded_and_loaded_again(browser):
     browser.type("indenter.a", "2 mm")
     browser.until(lambda: "indenter.a=0.002" in browser.state())
     browser.button("Case (TOML)")
-    path = Path(browser.folder / "case.toml")
+    path = browser.folder / "case.toml"
     browser.until(path.exists)
     case = browser.until(lambda: path.read_text(encoding="utf-8") and mdr.read_case(path))
     assert case == mdr.parse_case(mdr.write_case(CASE).replace("a = 0.001", "a = 0.002"))

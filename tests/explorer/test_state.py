@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 import threading
-from dataclasses import fields, replace
+from dataclasses import replace
 from urllib.parse import parse_qsl
 
 import numpy as np
@@ -24,6 +24,7 @@ from mdr.explorer.springs import DIRECTIONS, map_of
 from mdr.explorer.state import State, group_values
 from mdr.files.examples import PARTS, WAVEFORMS, example, example_file
 from mdr.plots import MODES
+from mdr.tools.fields import fields_of
 from mdr.tools.notation import UNITS
 from mdr.tools.progress import Ended
 
@@ -119,13 +120,7 @@ def test_every_field_has_a_control_with_its_unit_and_meaning(state, in_groups):
             assert list(control.grid) == sorted(set(control.grid))
             assert control.grid[0] <= control.value <= control.grid[-1]
             assert state.changed(control.path, control.value).case.mu_0 == state.case.mu_0
-    given = {
-        f"{slot}.{field.name}"
-        for slot in KINDS
-        if getattr(state.case, slot)
-        for field in fields(getattr(state.case, slot))
-        if field.name not in HIDDEN
-    }
+    given = {f"{slot}.{name}" for slot in KINDS for name in fields_of(getattr(state.case, slot)) if name not in HIDDEN}
     groups = {SET[path].fields[0] for path in group_values(state.case)} if in_groups else set()
     paths = {control.path for control in found}
     assert given - groups <= paths
@@ -172,8 +167,8 @@ def test_pictures_are_those_of_the_library(state):
     assert_allclose(last.cof[::7], exact.cof, atol=1e-3 * state.case.mu_0)
     assert_allclose(first.cof[::7], exact.cof, atol=0.05 * state.case.mu_0)  # no bound: a first sight
     assert abs(last.run.cof - mdr.slide(state.case, state.v_0).cof) <= 1e-3 * state.case.mu_0
-    assert map_of(last.run).shape == (last.run.n_springs, last.run.steps_per_period)
     modes = map_of(last.run)
+    assert modes.shape == (last.run.n_springs, last.run.steps_per_period)
     modes = np.where(modes >= len(MODES), mdr.State.SLIP, modes)  # one of the directions of slip
     assert_array_equal(np.unique(modes), np.unique(last.run.state))
     assert (last.band is not None) == state.case.is_shaken
