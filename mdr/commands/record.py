@@ -62,7 +62,7 @@ def record(args: argparse.Namespace, _: None) -> int:
 
 
 def with_displacements(
-    record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact, v_0: float | None = None
+    record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact, v_0: float | None
 ) -> dict[str, Any]:
     """The record with positions and depths [m] in the place of accelerations [m/s²], without the ends of these, and
     with the way of a steady pull at v_0 [m/s].

@@ -54,13 +54,13 @@ class Asked:
             self.said.object = f'<div style="font-size:13px;line-height:1.5" class="said {self.kind}">{text}</div>'
 
 
-def verdict_of(state: State, watch: Callable[[], None] = lambda: None) -> Iterator[str]:
+def verdict_of(state: State, watch: Callable[[], None]) -> Iterator[str]:
     """The sentence on how good the closed form is for a case."""
     with silent(watch):
         yield escape(str(verdict(state.case)))
 
 
-def half_space_of(state: State, watch: Callable[[], None] = lambda: None) -> Iterator[str]:
+def half_space_of(state: State, watch: Callable[[], None]) -> Iterator[str]:
     """Friction at v_0 on cells of a half-space, and the contact from above at four instants of a period."""
     from mdr import half_space
     from mdr.plots.figures import svg_of

@@ -19,7 +19,7 @@ from mdr.plots import COLOURS, prefix
 BEFORE = "#c3d9ea"
 
 
-def curve_legend(picture: Picture, before: bool = False) -> str:
+def curve_legend(picture: Picture, before: bool) -> str:
     """The legend of the curve; `before`: and of the one before it."""
     known = np.isfinite([picture.v_c, picture.v_c_back or np.nan]).any()
     return "".join(

@@ -19,10 +19,10 @@ from mdr.explorer.page import page_of
 HOST = "127.0.0.1"
 
 
-def server_of(case: SlidingContact, port: int, address: str = "") -> tuple[Any, str]:
+def server_of(case: SlidingContact, port: int, address: str) -> tuple[Any, str]:
     """A server that is about to run, and its address. OSError if the port is taken; 0 takes a free one.
 
-    `address`: that of the page in a browser beyond a tunnel or a proxy, where it is another one.
+    `address`: that of the page in a browser beyond a tunnel or a proxy, where it is another one, else "".
     """
     import matplotlib as mpl
 
