@@ -58,7 +58,7 @@ def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     if not np.all(good := (E >= 0) & (tau > 0)):
         i, unit = int(np.argmin(good)), "" if kind == "g_j" else " Pa"
         what = f"must have {kind} >= 0{unit} and tau_j > 0 s, got {E[i]:.6g}{unit} and {tau[i]:.6g} s"
-        raise fault(f"{table.source}: line {table.lines[i]}", what)
+        raise table.fault(f"line {table.lines[i]}: {what}")
     bulk = table.values.get("k_j", E)
     if not np.all((1 - 2 * nu) / 3 * np.abs(bulk - E) <= ROUNDED):  # by which E_j then is another share than G_j
         what = f"k_j must equal g_j at nu = {nu:.6g}, as Poisson's ratio is constant here"

@@ -19,7 +19,7 @@ from mdr.files.measurements import read_table
 from mdr.indenters.mapping.force_curves import TIPS, tip_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite
-from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Table, Units
 from mdr.tools.warned import warn_outside
 
@@ -174,8 +174,8 @@ def _one_way(table: Table, part: str) -> tuple[Array, Array]:
     falls = np.flatnonzero(np.diff(d) <= 0)
     if falls.size:
         i = int(falls[0])
-        where = f"{table.source}: line {lines[i + 1]}"
-        raise fault(where, f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give one way alone, sorted")
+        what = f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give one way alone, sorted"
+        raise table.fault(f"line {lines[i + 1]}: {what}")
     return d, F
 
 

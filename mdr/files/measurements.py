@@ -22,7 +22,7 @@ from mdr.materials.base import poisson_ratio
 from mdr.materials.prony_fit import ONE, TOLD, twice
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite, positive
-from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_header import Column
 from mdr.tools.csv_layout import decoded
 from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
 from mdr.tools.notation import GRAVITY, ZEROS
@@ -81,13 +81,8 @@ class DynamicModuli(NamedTuple):
 
 def read_table(path: str | PathLike[str], columns: Sequence[Column], reading: Reading) -> Table:
     """The columns in a CSV file."""
-    text, said = text_of(path)
+    text, said = decoded(read_bytes(path, MOST_BYTES, "table"))
     return table_of(text, fsdecode(path), columns, reading, said)
-
-
-def text_of(path: str | PathLike[str]) -> tuple[str, Any]:
-    """The text of a file, and what is said of its letters."""
-    return decoded(read_bytes(path, MOST_BYTES, "table"))
 
 
 def read_moduli(
@@ -306,14 +301,13 @@ def read_record(
     """
     wanted = MOTION if rate is None else tuple(one for one in MOTION if one is not TIME)
     step = None if rate is None else 1 / positive("rate", rate, "in Hz")
-    text, said = text_of(path)
-    table = table_of(text, fsdecode(path), wanted, Reading(units, columns, skip), said)
+    table = read_table(path, wanted, Reading(units, columns, skip))
     record = table.values
     if not record.keys() - {"t"}:
         what, example = "a time, and nothing else by a name known here", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
         raise table.lacks(what, example, "a_x", "a_y", "a_z")
     if step is not None:
-        _doubt_rate(text, table.source, Reading(_of_time(units), _of_time(columns), skip), step)
+        _doubt_rate(table, Reading(_of_time(units), _of_time(columns), skip), step)
         record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}
     elif np.any(falls := np.diff(record["t"]) < 0):
         raise table.fault(f"t falls in line {table.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
@@ -322,15 +316,16 @@ def read_record(
     return record
 
 
-def _doubt_rate(text: str, source: str, reading: Reading, step: float) -> None:
+def _doubt_rate(table: Table, reading: Reading, step: float) -> None:
     """Warn where a file has times of its own that go on by another step [s], by more than they are rounded."""
     t = np.zeros(1)
     with suppress(ValueError), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        t = table_of(text, source, (TIME,), reading).values["t"]
+        t = table_of(table.text, table.source, (TIME,), reading).values["t"]
     taken, rounded, n = float(np.ptp(t)), np.diff(np.unique(t)).min(initial=np.inf), t.size - 1
     if abs(taken - step * n) - rounded > 0.01 * step * n:
-        warn_outside(f"{source}: its times last {taken:.4g} s, at this rate {step * n:.4g} s: the rate is taken")
+        what = f"its times last {taken:.4g} s, at this rate {step * n:.4g} s: the rate is taken"
+        warn_outside(f"{table.source}: {what}")
 
 
 def _of_time(given: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -407,7 +402,7 @@ def require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
     if not np.all(good):
         i = int(np.argmin(good))
         row = ", ".join(f"{name} = {values[i]:.6g}" for name, values in table.values.items())
-        raise fault(f"{table.source}: line {table.lines[i]}", f"{rule}, got {row} in SI")
+        raise table.fault(f"line {table.lines[i]}: {rule}, got {row} in SI")
 
 
 def _refuse_repeated(table: Table, name: str, x: Array, tiny: float) -> None:

@@ -14,12 +14,12 @@ import warnings
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
-from os import PathLike, fsdecode
+from os import PathLike
 
 import numpy as np
 
 from mdr.case.doubts import GREATEST_MU_0
-from mdr.files.measurements import text_of
+from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.csv_header import Column
@@ -118,13 +118,12 @@ def read_friction_data(
     >>> mdr.read_friction_data("measured.csv").v_0
     array([0.0005, 0.001 ])
     """
-    (text, said), maybe = text_of(path), []
-    table = table_of(text, fsdecode(path), COLUMNS, Reading(units, columns, skip), said)
+    table, maybe = read_table(path, COLUMNS, Reading(units, columns, skip)), []
     if "error" not in table.values and "error" not in (columns or {}):
         for name in table.header.unread:
             with suppress(ValueError), warnings.catch_warnings(action="ignore"):
                 reading = Reading(units, {**(columns or {}), "error": name}, skip)
-                error = table_of(text, table.source, COLUMNS, reading).values["error"]
+                error = table_of(table.text, table.source, COLUMNS, reading).values["error"]
                 if np.all((error > 0) & (error < table.values["cof"])):
                     maybe.append(name)
     if maybe:

@@ -9,9 +9,9 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
-from mdr.tools.csv_header import fault
 from mdr.tools.notation import is_unit
 
 SEPARATORS = ("\t", ";", "|", ",", " ")  #: " " is any run of blanks
@@ -48,7 +48,7 @@ class Layout(NamedTuple):
 
     def cells(self, line: Line) -> list[str]:
         """The cells of a row."""
-        return cells_of(line.text, "", self.separator)
+        return cells_of(line.text, self.separator)
 
 
 def lines_of(text: str, skip: int | None) -> list[Line]:
@@ -66,7 +66,7 @@ def told_separator(text: str) -> str:
 def layouts(lines: Sequence[Line], told: str, skip: int | None) -> Iterator[Layout]:
     """The ways to read the lines in which something stands above a row of numbers, as a header does."""
     for separator in told or SEPARATORS:
-        cut = [cells_of(line.text, "", separator) for line in lines[: SEARCHED + 3]]
+        cut = [cells_of(line.text, separator) for line in lines[: SEARCHED + 3]]
         for i in range(len(cut) if skip is None else 1):
             # a row of units, and one of remarks, may stand between
             ends = [j for j in range(i + 1, min(i + 4, len(cut))) if is_row(cut[j]) and not lines[j].is_comment]
@@ -77,7 +77,7 @@ def layouts(lines: Sequence[Line], told: str, skip: int | None) -> Iterator[Layo
 def likely(lines: Sequence[Line], told: str) -> Iterator[tuple[Layout, tuple[float, int]]]:
     """For each separator the longest run of alike rows, with what stands above; the share and the count of numbers."""
     for separator in told or SEPARATORS:
-        cut = [[] if one.is_comment else cells_of(one.text, "", separator) for one in lines[:SEARCHED]]
+        cut = [[] if one.is_comment else cells_of(one.text, separator) for one in lines[:SEARCHED]]
         best, place = (0.0, 0), 0
         for start in (i for i, cells in enumerate(cut) if is_row(cells) and not (i and _alike(cut[i - 1], cells))):
             end = next((j for j in range(start + 1, len(cut)) if not _alike(cut[start], cut[j])), len(cut))
@@ -89,8 +89,8 @@ def likely(lines: Sequence[Line], told: str) -> Iterator[tuple[Layout, tuple[flo
 
 def _below(lines: Sequence[Line], separator: str, start: int) -> Layout:
     """The way to read of which the first row is known: a header, or a header and a row of units, stands above it."""
-    above = [i for i in range(max(start - 2, 0), start) if not is_row(cells_of(lines[i].text, "", separator))]
-    width = len(cells_of(lines[start].text, "", separator))
+    above = [i for i in range(max(start - 2, 0), start) if not is_row(cells_of(lines[i].text, separator))]
+    width = len(cells_of(lines[start].text, separator))
     if len(above) == 2 and not any(map(is_unit, _units(lines[above[1]], separator, width))):
         above = above[1:]
     return _layout(lines, separator, above[0] if above and above[-1] == start - 1 else start, start)
@@ -98,7 +98,7 @@ def _below(lines: Sequence[Line], separator: str, start: int) -> Layout:
 
 def _layout(lines: Sequence[Line], separator: str, header: int, first: int) -> Layout:
     """The way to read that has its header and its first row there."""
-    width = len(cells_of(lines[first].text, "", separator))
+    width = len(cells_of(lines[first].text, separator))
     heads = _heads(lines[header], separator, width) if header < first else []
     between = [_units(line, separator, width) for line in lines[header + 1 : first]]
     whole = [cells for cells in between if separator != " " or len(cells) == width]
@@ -110,8 +110,8 @@ def _heads(line: Line, separator: str, width: int) -> list[str]:
     """The cells of a header; above rows cut by blanks as many as these have, however they are cut, or one."""
     text = line.text.lstrip(" #%")
     if separator != " ":
-        return cells_of(text, "", separator)
-    cuts = [cells_of(text, "", one) for one in SEPARATORS[:-1]]
+        return cells_of(text, separator)
+    cuts = [cells_of(text, one) for one in SEPARATORS[:-1]]
     cuts += [re.split(one, text.strip()) for one in (r"\s{2,}", r"\s+(?![\[(])", r"\s+")]
     cuts += [text.partition(":")[2].split()]  # columns: a b
     return next((cells for cells in cuts if len(cells) == width), [text.strip()])
@@ -137,16 +137,14 @@ def _alike(cells: Sequence[str], others: Sequence[str]) -> bool:
     return len(cells) == len(others) and is_row(cells) and is_row(others)
 
 
-def cells_of(line: str, where: str, separator: str = ",") -> list[str]:
-    """The cells of one line; a quote that is left open ends with it. Raises ValueError, naming `where` it stands."""
+def cells_of(line: str, separator: str) -> list[str]:
+    """The cells of one line; a quote that is left open ends with it."""
     if separator == " ":
         return line.split()
-    if '"' not in line:
-        return [cell.strip() for cell in line.split(separator)] if line else []
-    try:
-        return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-    except csv.Error as wrong:
-        raise fault(where, str(wrong)) from None
+    if '"' in line:
+        with suppress(csv.Error):  # a cell of more letters than csv takes
+            return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+    return [cell.strip() for cell in line.split(separator)] if line else []
 
 
 def decoded(data: bytes) -> tuple[str, str]:

@@ -88,6 +88,7 @@ class Table(NamedTuple):
     values: dict[str, Array]  #: each column (n,) in the unit of the library
     lines: tuple[int, ...]  #: where each row stands in the file
     header: Header
+    text: str  #: of the file
     first_lines: str  #: header and first rows as they were read
 
     def fault(self, what: str) -> ValueError:
@@ -125,7 +126,7 @@ def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading
     if guesses := [*filter(None, [said]), *header.said, *filter(None, [left_out])]:
         warn_outside(one_line(f"{source}: {'; '.join(guesses)}"))
     scaled = {place.column.name: _scaled(values[place.column.name], place) for place in header.places}
-    return Table(source, scaled, tuple(row.number for row in rows), header, first_lines)
+    return Table(source, scaled, tuple(row.number for row in rows), header, text, first_lines)
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:
@@ -247,11 +248,7 @@ def _cells_of(
     found: dict[str, list[str]] = {place.column.name: [] for place in header.places}
     faults, width = [], len(layout.heads) or math.inf
     for line in rows:
-        try:
-            row = layout.cells(line)
-        except ValueError as wrong:
-            row = []
-            faults.append(f"{source}: line {line.number}: {wrong}")
+        row = layout.cells(line)
         if len(row) > width and any(cell.strip() for cell in row[len(layout.heads) :]):
             what = f"has {len(row)} cells, the header {width}; if a comma is the decimal mark, separate them by ;"
             faults.append(f"{source}: line {line.number}: {what}")

@@ -274,6 +274,7 @@ REFUSED = [
     # an open quote ends its line
     (friction, 'v [m/s], mu\n1, "0.3\n2, 0.4\n3, high\n', {}, "line 4: high is no number"),
     (friction, f"v [m/s], mu\n1, {'3' * 140_000}\n", {}, "is no number (column cof)"),
+    (friction, f'v [m/s], mu\n1, "{"3" * 140_000}"\n', {}, "is no number (column cof)"),
     (record, "sep=\t,\nt [s]\ta [g]\n0\tx\n", {}, "line 3: x is no number"),
     # headers
     (friction, "", {}, "holds no table; a header such as v_0 [mm/s], cof, and a row a measurement"),

@@ -9,14 +9,9 @@ from mdr.tools.csv_layout import cells_of, decoded, is_like_number, layouts, lik
     ("line", "cells"), [("1, 2", ["1", "2"]), ('1, "2, 3"', ["1", "2, 3"]), ('"open, 2', ["open, 2"]), ("", [])]
 )
 def test_a_line_is_its_cells(line, cells):
-    assert cells_of(line, "here") == cells
-    assert cells_of("1,5;2", "here", ";") == ["1,5", "2"]
-    assert cells_of(" 1,5   2 ", "here", " ") == ["1,5", "2"]
-
-
-def test_a_line_that_cannot_be_cut_says_where_it_stands():
-    with pytest.raises(ValueError, match=r"^data\.csv: line 3: field larger than field limit"):
-        cells_of('"' + "3" * 140_000, "data.csv: line 3")
+    assert cells_of(line, ",") == cells
+    assert cells_of("1,5;2", ";") == ["1,5", "2"]
+    assert cells_of(" 1,5   2 ", " ") == ["1,5", "2"]
 
 
 @pytest.mark.parametrize("one", ["1", "-1.5", "−1,5", ".5", "5.", "1e-3", "1,5E+3", "1.234,5", "1,234.5", "inf", "NaN"])
