@@ -11,22 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 LACK = ""  #: why numba cannot be imported
 
-if TYPE_CHECKING:
+try:
     from numba import njit, types
     from numba.core import event
     from numba.core.caching import FunctionCache, IndexDataCacheFile
     from numba.core.types import Complex, NoneType
+    from numba.experimental import function_type  # noqa: F401, teaches numba what a WrapperAddressProtocol is
     from numba.extending import overload, register_jitable
-else:
-    try:
-        from numba import njit, types
-        from numba.core import event
-        from numba.core.caching import FunctionCache, IndexDataCacheFile
-        from numba.core.types import Complex, NoneType
-        from numba.experimental import function_type  # noqa: F401, teaches numba what a WrapperAddressProtocol is
-        from numba.extending import overload, register_jitable
-    except (ImportError, OSError) as fault:  # or a library that it loads
-        LACK = str(fault)
+except (ImportError, OSError) as fault:  # or a library that it loads
+    LACK = str(fault)
+    if not TYPE_CHECKING:
 
         def njit(**_: Any) -> Any:
             """Decorator that leaves a function as it is."""

@@ -24,6 +24,7 @@ SYNTAX = {
     "no TOML": ("{}", "line 1: {}: "),
     "digits": ("a = " + "1" * 5000, "a number has thousands of digits"),
     "nesting": ("a = " + "[" * 100_000, "nested too deeply"),
+    "nesting by dots": ("R" + ".a" * 200_000 + " = 1", "nested too deeply"),
     "nesting by dots, with blanks": ("[" + "a . " * 20_000 + "a]", "nested too deeply"),
 }
 

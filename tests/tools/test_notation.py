@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.tools.notation import UNITS, number_in, numbers_in, parted, scale_of, shown, value_in
+from mdr.tools.notation import UNITS, numbers_in, parted, scale_of, shown, value_in
 
 TURN = 2 * math.pi
 READ = {
@@ -108,8 +108,3 @@ def test_lists_hold_quantities_and_words_stay():
     assert numbers_in("at", "tool", "") == "tool"
     with pytest.raises(ValueError, match=r"^cos\[1\] wants m"):
         numbers_in("cos", [1e-6, "2 s"], "m")
-
-
-def test_a_cell_of_a_table_says_where_its_unit_belongs():
-    with pytest.raises(ValueError, match="write 5 and the unit in the header"):
-        number_in("5 mm")
