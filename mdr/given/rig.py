@@ -136,7 +136,9 @@ def rig(
     }
     if len(amplitudes) > 1:
         raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
-    hold = _held(hold, bool(amplitudes) and load_amplitude is None)
+    held = {} if hold is None else {HOLD: hold_of(hold)}
+    if held and not (amplitudes and load_amplitude is None):
+        raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
     pull = _pull(k_x, m, c_x)
     m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
     if not amplitudes and (shake is None or not math.isclose(shake.omega, omega, rel_tol=SAME)):
@@ -151,7 +153,7 @@ def rig(
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
         motion = NormalOscillation(0.0, du_z, omega)
     parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
-    settings = {"mu_0": mu_0, "tau_0": tau_0, "load": F_z0} | ({} if hold is None else {HOLD: hold})
+    settings = {"mu_0": mu_0, "tau_0": tau_0, "load": F_z0, **held}
     case = contact_of(parts, settings)
     warn_of_load(settings, case)
     if density is not None:
@@ -211,14 +213,6 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
             "the load is all that presses, the weight of the sled included"
         )
     return moved if rides else 0.0
-
-
-def _held(hold: str | None, is_driven: bool) -> str | None:
-    """What stays of a driven depth, where that is said."""
-    if hold is not None and not is_driven:
-        hold_of(hold)
-        raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
-    return None if hold is None else hold_of(hold)
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:

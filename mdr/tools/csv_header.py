@@ -116,10 +116,8 @@ class Header:
         self._take_lone()
         self.places = [Place(one, self.at[one.name], self._unit(one)) for one in columns if one.name in self.at]
         self.faults += [what for place in self.places if (what := self._fault(place.column))]
-        self.absent = [
-            one for one in columns if one.name not in self.at and (one.needed or one.name in {*units, *called})
-        ]
-        self.absent = [one for one in self.absent if called.get(one.name) != ""]
+        wanted = [one for one in columns if one.needed or one.name in {*units, *called}]
+        self.absent = [one for one in wanted if one.name not in self.at and called.get(one.name) != ""]
         if unnamed := [one for one in self.absent if one.name not in called]:
             self.faults.insert(0, self._lacks(unnamed))
 
@@ -128,7 +126,7 @@ class Header:
         if all(place.column.needed for place in self.places):
             more = [*more, *(one for one in self.columns if one.lone and not one.needed)]
         absent = list(dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)]))
-        free = [i for i in range(len(self.heads)) if i not in self.at.values()]
+        free = self._free()
         columns = {name: own for name, own in self.called.items() if name in self.at or own == ""}
         bare = [one for one in self.columns if one.name in self.at and self._lacks_unit(one)]
         blank = [i for i in free if not self.heads[i].unit]
