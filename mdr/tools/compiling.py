@@ -16,7 +16,7 @@ class Tally:
     open: int = 0  #: that are being compiled, one within another
     since: float = 0.0  #: instant [s] from which on they are
     took: float = 0.0  #: time [s] that those before took
-    heeds: bool = True  #: whether they are counted, and told of
+    is_told: bool = True  #: whether it is said how many
 
     def begin(self) -> None:
         """One more is being compiled."""
@@ -42,9 +42,9 @@ TALLY = Tally()
 
 @contextmanager
 def unsaid() -> Iterator[None]:
-    """Nothing is counted or told inside, where who compiles on purpose says how far it has got."""
-    TALLY.heeds = False
+    """Nothing is told inside, where who compiles on purpose says how far it has got."""
+    TALLY.is_told = False
     try:
         yield
     finally:
-        TALLY.heeds = True
+        TALLY.is_told = True

@@ -88,57 +88,38 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
     return wrap
 
 
-class Notice(event.Listener):
-    """Says on standard error how many functions of this package have been compiled, if it takes long."""
+class Compiling(event.Listener):
+    """Counts what is compiled of this package, and says on standard error how many functions, if it takes long.
 
-    def __init__(self) -> None:
-        self.line = Ticker("compiling, once on this machine, the 30 to 80 functions of this kind of run")
-
-    def on_start(self, event: Any) -> None:
-        """A function begins to be compiled, perhaps within another."""
-        if _counts(event):
-            if not TALLY.open:
-                self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
-            TALLY.begin()
-
-    def on_end(self, event: Any) -> None:
-        """It is compiled."""
-        if _counts(event):
-            TALLY.end()
-            self.line.tick()
-
-
-class Undisturbed(event.Listener):
-    """Puts off Python's search for cycles of objects while a function of this package is compiled: numba makes very
-    many that live as long, and a seventh of its time went into the search.
+    It puts off Python's search for cycles of objects meanwhile: numba makes very many that live as long, and a seventh
+    of its time went into the search.
     """
 
     def __init__(self) -> None:
-        self.depth, self.searched = 0, False
+        self.line = Ticker("compiling, once on this machine, the 30 to 80 functions of this kind of run")
+        self.searched = False
 
     def on_start(self, event: Any) -> None:
         """A function begins to be compiled, perhaps within another."""
         if _own(event):
-            if self.depth == 0:
+            if not TALLY.open:
+                self.line.next = max(self.line.next, time.monotonic() + PATIENCE)
                 self.searched = gc.isenabled()
                 gc.disable()
-            self.depth += 1
+            TALLY.begin()
 
     def on_end(self, event: Any) -> None:
         """It is compiled, or was refused."""
         if _own(event):
-            self.depth -= 1
-            if self.depth == 0 and self.searched:
+            TALLY.end()
+            if self.searched and not TALLY.open:
                 gc.enable()
-
-
-def _counts(event: Any) -> bool:
-    return TALLY.heeds and _own(event)
+            if TALLY.is_told:
+                self.line.tick()
 
 
 def _own(event: Any) -> bool:
     return str(event.data["dispatcher"].py_func.__module__).startswith("mdr.")
 
 
-event.register("numba:compile", Undisturbed())
-event.register("numba:compile", Notice())
+event.register("numba:compile", Compiling())

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from contextlib import nullcontext
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -124,37 +125,35 @@ def compiling(module):
 
 
 @pytest.mark.parametrize(
-    ("module", "seconds", "said"), [("mdr.march.kernels", 6.0, [1, 3, 4]), ("mdr.x", 0.1, []), ("scipy.x", 60.0, [])]
+    ("module", "seconds", "on_purpose", "said"),
+    [
+        ("mdr.x", 6.0, False, [1, 3, 4]),
+        ("mdr.x", 6.0, True, []),
+        ("mdr.x", 0.1, False, []),
+        ("scipy.x", 60.0, False, []),
+    ],
 )
-def test_a_long_compilation_says_every_ten_seconds_how_much_is_done(module, seconds, said, monkeypatch, capsys):
+def test_a_long_compilation_says_every_ten_seconds_how_much_is_done(
+    module, seconds, on_purpose, said, monkeypatch, capsys
+):
     now = count(0.0, seconds)
     monkeypatch.setattr(jit.time, "monotonic", lambda: next(now))
-    notice = jit.Notice()
-    for _ in range(4):
-        notice.on_start(compiling(module))
-    for _ in range(4):
-        notice.on_end(compiling(module))
+    notice = jit.Compiling()
+    with unsaid() if on_purpose else nullcontext():
+        for _ in range(4):
+            notice.on_start(compiling(module))
+        for _ in range(4):
+            notice.on_end(compiling(module))
     assert TALLY.open == 0
     lines = capsys.readouterr().err.splitlines()
     assert [int(line.split(": ")[1].split()[0]) for line in lines] == said
     assert all(line.startswith("compiling, once on this machine,") for line in lines)
 
 
-def test_cycles_are_searched_for_again_once_it_is_compiled():
-    undisturbed, seen = jit.Undisturbed(), []
+def test_what_is_compiled_is_counted_and_cycles_are_searched_for_again_at_its_end():
+    seen = []
     for module in ("scipy.x", "mdr.x"):
-        for step in (undisturbed.on_start, undisturbed.on_start, undisturbed.on_end, undisturbed.on_end):
-            step(compiling(module))
-            seen.append(gc.isenabled())
-    assert seen == [True] * 4 + [False] * 3 + [True]
-
-
-def test_who_compiles_on_purpose_has_no_notice():
-    def begun_and_ended():
-        for status, step in ((EventStatus.START, 1), (EventStatus.END, 0)):
-            event.broadcast(event.Event("numba:compile", status, data=compiling("mdr.x").data))
-            yield TALLY.open, step
-
-    with unsaid():
-        assert [is_open for is_open, _ in begun_and_ended()] == [0, 0]
-    assert all(is_open == step for is_open, step in begun_and_ended())
+        for status in (EventStatus.START, EventStatus.START, EventStatus.END, EventStatus.END):
+            event.broadcast(event.Event("numba:compile", status, data=compiling(module).data))
+            seen.append((TALLY.open, gc.isenabled()))
+    assert seen == [(0, True)] * 4 + [(1, False), (2, False), (1, False), (0, True)]
