@@ -184,9 +184,9 @@ class _Table:
         kind = KINDS[self.name] if self.choice else SpringPull
         known = {name: getattr(self.module, name) for name in self.module.__all__} | own_records(kind)
         return {
-            name: record
-            for name, record in sorted(known.items())
-            if issubclass(record, kind) and is_dataclass(record) and not isabstract(record)
+            name: known[name]
+            for name in sorted(known)
+            if issubclass(known[name], kind) and is_dataclass(known[name]) and not isabstract(known[name])
         }
 
     def writable(self) -> dict[str, type[Any]]:

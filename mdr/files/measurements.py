@@ -376,7 +376,7 @@ def profile_points(
     table = read_table(path, PROFILE, reading)
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
     tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
-    _refuse_repeated(table, "r", x, tiny)
+    _refuse_repeated(table, x, tiny)
     at_tip = np.flatnonzero(np.abs(x) <= tiny)
     if not at_tip.size:
         low, high = (table.values["r"][take(table.values["f"])] for take in (np.argmin, np.argmax))
@@ -405,10 +405,10 @@ def require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
         raise table.fault(f"line {table.lines[i]}: {rule}, got {row} in SI")
 
 
-def _refuse_repeated(table: Table, name: str, x: Array, tiny: float) -> None:
+def _refuse_repeated(table: Table, x: Array, tiny: float) -> None:
     order = np.argsort(x, kind="stable")
     again = np.flatnonzero(np.diff(x[order]) <= tiny)
     if again.size:
         one, two = sorted(table.lines[order[again[0] + k]] for k in (0, 1))
-        value = table.values[name][order[again[0]]]
-        raise table.fault(f"lines {one} and {two} both have {name} = {value:.6g} m; give one, or their mean")
+        r = table.values["r"][order[again[0]]]
+        raise table.fault(f"lines {one} and {two} both have r = {r:.6g} m; give one, or their mean")

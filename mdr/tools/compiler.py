@@ -22,10 +22,6 @@ except (ImportError, OSError) as fault:  # or a library that it loads
     LACK = str(fault)
     if not TYPE_CHECKING:
 
-        def njit(**_: Any) -> Any:
-            """Decorator that leaves a function as it is."""
-            return register_jitable
-
         def register_jitable(function: Any) -> Any:
             """The function itself."""
             return function
@@ -33,6 +29,8 @@ except (ImportError, OSError) as fault:  # or a library that it loads
         def overload(*_: Any, **__: Any) -> Any:
             """Decorator that leaves a function as it is."""
             return register_jitable
+
+        njit = overload
 
         class _Type:
             """Of a signature, which nobody reads."""
