@@ -9,6 +9,7 @@ from conftest import SHAPES, contact, unit_of_velocity
 from numpy.testing import assert_allclose
 from twins import rigid_pull as reference
 from twins import turning as twin
+from twins.tiny_steps import period
 
 import mdr
 from mdr.closed_forms import rigid_pull, shaken_pull, shaken_spring
@@ -74,11 +75,11 @@ RIGID = twin.Body(np.zeros(2), np.zeros(2), np.full(2, math.inf))
 def marched(cases, steps, periods, n_panels=12):
     """Mean friction over mu_0 times mean force by the twin's steps, of dashpots without their error of first order."""
     for pull, v in cases:
-        row, law, found = twin.Row(*springs_of(pull, n_panels)), twin.Material(pull.T, np.zeros(0), np.zeros(0)), []
+        row, law, found = twin.Row(*springs_of(pull, n_panels)), twin.Law(pull.T, np.zeros(0), np.zeros(0)), []
         for n in (steps // 2, steps):
             motion = twin.motion_of(pull.Z, pull.X, [], v, n)
             state = twin.at_rest(row, law, motion, RIGID)
-            f_x, _, p = [twin.period(row, law, motion, RIGID, state) for _ in range(periods)][-1]
+            f_x, _, p = [period(row, law, motion, RIGID, state) for _ in range(periods)][-1]
             found.append(f_x / p)
         yield 2 * found[1] - found[0] if pull.T else found[1]
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from twins.tiny_steps import Friction
 
 import mdr
 
@@ -35,6 +36,14 @@ class Row:
 def row(name: str, run: mdr.SlidingRun, truth: float, doubt: float = 0.0, known: bool = True) -> Row:
     """A run beside a COF, that and its doubt over mu_0; whether that is known."""
     return Row(name, run.cof / run.mu_0, run.cof_error / run.mu_0, float(truth), float(doubt), run.settled and known)
+
+
+def along_or_across(name: str, run: mdr.SlidingRun, twin: Friction, full: float) -> Row:
+    """A run beside its twin over `full`, along or across the pull, where they differ more."""
+    bound, known = run.cof_error / full, (twin.doubt, run.settled)
+    along = Row(name, run.cof / full, bound, twin.along, *known)
+    across = Row(f"{name}, across", run.cof_y / full, bound, twin.across, *known)
+    return max(along, across, key=lambda one: one.distance)
 
 
 def median_bound(rows: Sequence[Row]) -> float:

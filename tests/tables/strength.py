@@ -9,8 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 from conftest import SHAPES
-from tables.beside import Row, told
+from tables.beside import Row, along_or_across, told
 from twins import strength as twin
+from twins.tiny_steps import Friction
 
 import mdr
 from mdr.tools.progress import progress
@@ -76,12 +77,7 @@ def amplitude(way: np.ndarray) -> complex:
 def row_of(name: str, case: mdr.SlidingContact, v_0: float, known: twin.Contact, **knobs: int) -> Row:
     """The run beside the twin, along or across the pull, where they differ more."""
     run, truth = mdr.slide(case, v_0), twin.friction(known, **knobs)
-    full, ends = run.full_cof, ((run.cof, truth.along, ""), (run.cof_y, truth.across, ", across"))
-    rows = [
-        Row(name + end, cof / full, run.cof_error / full, true / full, truth.doubt / full, run.settled)
-        for cof, true, end in ends
-    ]
-    return max(rows, key=lambda one: one.distance)
+    return along_or_across(name, run, Friction(*(one / run.full_cof for one in truth)), run.full_cof)
 
 
 def main(n: int = 60) -> int:

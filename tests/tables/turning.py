@@ -12,8 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 from conftest import SHAPES
-from tables.beside import Row, told
+from tables.beside import Row, along_or_across, told
 from twins import turning as twin
+from twins.tiny_steps import Friction
 
 import mdr
 from mdr.tools.progress import progress
@@ -26,7 +27,6 @@ MATERIALS = {
     "two arms": mdr.Prony(3e6, ((3e6, 0.3 / OMEGA), (1.5e6, 2 / OMEGA)), NU),
 }
 REACH = MU_0 * MATERIALS["elastic"].mindlin_ratio * DEPTH  # deflection at which the deepest spring slips
-System = tuple[str, str, mdr.SlidingContact, float]  #: what it is, its shape, and how it is pulled
 MOTIONS, ALONG = ("transverse", "oblique", "figure-eight"), ("backward", "forward", "forward")
 
 
@@ -83,7 +83,7 @@ def fastest(case: mdr.SlidingContact) -> float:
     return float(np.sqrt(total.max()))
 
 
-def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> twin.Friction:
+def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Friction:
     """COF over mu_0 along and across the pull."""
     unit, k_xc, L = case.cycle.unit, case.k_xc, case.rheology
     length = MU_0 * case.material.mindlin_ratio * unit
@@ -98,10 +98,7 @@ def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) ->
 
 def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:
     """The run beside the twin, along or across the pull, where they differ more."""
-    run, known = mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs)
-    bound, ends = run.cof_error / MU_0, ((run.cof, known.along, ""), (run.cof_y, known.across, ", across"))
-    rows = [Row(name + end, cof / MU_0, bound, truth, known.doubt, run.settled) for cof, truth, end in ends]
-    return max(rows, key=lambda one: one.distance)
+    return along_or_across(name, mdr.slide(case, v_0), by_twin(shape, case, v_0, **knobs), MU_0)
 
 
 def main(n: int = 0, *words: str) -> int:

@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from twins import rigid_pull as reference
 from twins import turning as twin
+from twins.tiny_steps import State, period
 
 FLAT = math.inf
 
@@ -78,15 +79,15 @@ def test_no_direction_is_special(material, yields):
     """All that moves in the plane turned by an angle turns the forces, to rounding."""
     angle = 0.7
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    L = twin.Material(material[0], *(np.array(one) for one in material[1:]))
+    L = twin.Law(material[0], *(np.array(one) for one in material[1:]))
     row, motion = twin.springs(2, 0.8, (0.0, 1.8), 32), twin.motion_of([1.0], [0.5j, 0.2], [2.0, 0.3j], 0.5, 256)
     body = twin.Body(*(np.full(2, one) for one in (0.8, 0.5, 1.2))) if yields else rigid_body()
     turned = motion._replace(u=np.ascontiguousarray(turn @ motion.u), v=turn @ motion.v)
     state = twin.at_rest(row, L, motion, body)
-    other = twin.State(*(np.array(one) for one in state))
-    other.x[:2], other.y[:] = turn @ state.x[:2], turn @ state.y
+    other = State(*(np.array(one) for one in state))
+    other.q[0, :2], other.y[:] = turn @ state.q[0, :2], turn @ state.y
     for _ in range(5):
-        one, two = twin.period(row, L, motion, body, state), twin.period(row, L, turned, body, other)
+        one, two = period(row, L, motion, body, state), period(row, L, turned, body, other)
         assert_allclose(two, [*(turn @ one[:2]), one[2]], rtol=0, atol=1e-13)
 
 
