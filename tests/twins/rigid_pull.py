@@ -15,11 +15,9 @@ in slip. Over a period <N> = <s>, so an elastic rigid pull has COF / mu_0 = 1 - 
 """
 
 import math
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
 
 TWO_PI = 2 * np.pi
 
@@ -27,36 +25,18 @@ TWO_PI = 2 * np.pi
 # --- tools --------------------------------------------------------------------------------------------------
 
 
-def bracketed_root(f, low, high, tol=4e-16, max_steps=80):
-    """Roots of the array function f, which changes sign between low and high, element by element.
+def bracketed_root(f, low, high):
+    """Roots of the array function f, which changes sign between low and high, element by element, by bisection.
 
-    Chandrupatla (1997): inverse quadratic interpolation where it is safe, bisection elsewhere. Where f has
-    one sign at both ends the answer is meaningless and the caller discards it.
+    Where rounding leaves f one sign at both ends it is the lower one.
     """
-    a, b = (np.array(end, dtype=float) for end in np.broadcast_arrays(high, low))
-    fa, fb = f(a), f(b)
-    one_sign = np.sign(fa) * np.sign(fb) > 0
-    c, fc, t = a.copy(), fa.copy(), np.full(a.shape, 0.5)
-    for _ in range(max_steps):
-        x = a + t * (b - a)
-        fx = f(x)
-        same = np.sign(fx) == np.sign(fa)
-        c, fc = np.where(same, a, b), np.where(same, fa, fb)
-        b, fb = np.where(same, b, a), np.where(same, fb, fa)
-        a, fa = x, fx
-        best = np.where(np.abs(fa) < np.abs(fb), a, b)
-        smallest = tol * (1 + np.abs(best))
-        width = np.abs(b - a)
-        if np.all((width <= 2 * smallest) | (fa == 0) | (fb == 0) | one_sign):
-            break
-        with np.errstate(all="ignore"):
-            xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
-            smooth = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
-            step = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
-            t = np.where(smooth & np.isfinite(step), step, 0.5)
-            edge = np.where(width > 0, np.minimum(smallest / width, 0.5), 0.5)
-        t = np.clip(t, edge, 1 - edge)
-    return np.where(np.abs(fa) < np.abs(fb), a, b)
+    low, high = (np.array(end, dtype=float) for end in np.broadcast_arrays(low, high))
+    after = f(high) < 0
+    for _ in range(60):  # to the last digit of a phase
+        middle = (low + high) / 2
+        beyond = (f(middle) < 0) == after
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return (low + high) / 2
 
 
 def gauss_panels(breaks, n_nodes):
@@ -127,13 +107,6 @@ def contact_times(h, T):
     return np.where(always, 0.0, on), np.where(always, TWO_PI, off + TWO_PI)
 
 
-@lru_cache
-def tip_times(depth_ratio, T):
-    """Touch and loss of contact of the tip, as numbers."""
-    on, off = contact_times([depth_ratio], T)
-    return float(on[0]), float(off[0])
-
-
 def mean_compression(h, T):
     """<s> over a period, which is also the mean normal force of the spring."""
     h = np.atleast_1d(np.asarray(h, dtype=float))
@@ -191,18 +164,7 @@ def rigid_elastic_cof(n, depth_ratio, v_hat, n_nodes=40, levels=2):
 
 def flat_punch_deficit(v_hat):
     """psi(v_hat) of a flat punch that never leaves the plane: COF / mu_0 = 1 - psi / depth_ratio."""
-    phi_1 = np.pi + math.asin(v_hat)
-    phi_2 = brentq(
-        lambda t: math.cos(phi_1) - math.cos(t) + v_hat * (t - phi_1),
-        TWO_PI - math.asin(v_hat),
-        phi_1 + TWO_PI,
-        xtol=1e-15,
-    )
-    span = phi_2 - phi_1
-    return (math.sin(phi_2) - math.sin(phi_1) - math.cos(phi_1) * span - v_hat * span**2 / 2) / TWO_PI
-
-
-# --- rigid pull, Kelvin -------------------------------------------------------------------------------------
+    return float(elastic_lag(2.0, v_hat)[0])
 
 
 # --- full slip of the whole array ---------------------------------------------------------------------------
