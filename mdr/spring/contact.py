@@ -87,6 +87,18 @@ class Answer(NamedTuple):
     pressed: float  #: share that bears a normal force at the end
 
 
+class Pressing(NamedTuple):
+    """A stretch of contact: the motion of the top in it, and what is told from zero."""
+
+    z: tuple[float, float]  #: z_1, z_2 of the parabola of its depth, with the time from the start of the stretch
+    x: tuple[complex, complex]  #: x_1, x_2 of its displacement
+    t: float  #: length of the stretch
+    k: int  #: row of tools.times that is filled for t, STEP or PART
+    begun: float  #: when it begins in the step
+    tol: float  #: rounding of a length, which forces and velocities are told from zero by too
+    rate_miss: tuple[float, complex]  #: true rates of the top at the end of the step, less those of the parabolas
+
+
 class Friction(NamedTuple):
     """Friction over a stretch of contact."""
 
@@ -159,12 +171,14 @@ def within(f, R):
 
 
 @_inline
-def friction_on_face(face, springs, rub, s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look):
+def friction_on_face(face, springs, rub, s, e, i, on, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, by `rub`. On a face with a strength `rub` is run with the
     compression q whose force is the limit (face.py), and s is put back.
     """
+    w = springs.w[i]
     if face is None:
-        return rub(s, e, i, w, z, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
+        return rub(s, e, i, w, on, T, modes, arms, tools, look)
+    z, x, t, k, done, tol, rate_miss = on
     kept, x2 = tools.room.kept, springs.x2[i]
     for j in range(s.shape[0]):
         kept[j, 0] = s[j, i]
@@ -176,7 +190,7 @@ def friction_on_face(face, springs, rub, s, e, i, w, z, x, t, k, done, tol, rate
     A, B = hold(kept, 0, z[0], z[1], t, k, T, tools, arms)
     q = raise_to_limit(s, i, z, strengths(face, x2, done, t), t, face.coulomb, T, arms)
     tol += ROUNDING * (abs(s[0, i]) + size_of(e[0, i]))
-    of = rub(s, e, i, w, q, x, t, k, done, tol, rate_miss, T, modes, arms, tools, look)
+    of = rub(s, e, i, w, Pressing(q, x, t, k, done, tol, rate_miss), T, modes, arms, tools, look)
     for j in range(s.shape[0]):
         s[j, i] = kept[j, 0]
     if look is not None:
@@ -206,7 +220,6 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
     normal_area = normal_moment = normal_end = pressed = 0.0
     if look is not None:
         look.F[2] = np.inf
-    # true rates of the top at the end of the step, less those of the parabolas
     rate_miss = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
     for i in range(gap.size):
         if made is not None and made[i] != 0.0:
@@ -243,28 +256,9 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
                     normal_area += w[i] * A
                     normal_moment += w[i] * (done * A + B)
                 else:
-                    z, x = (z_1, path.z_2), (path.x_1 + 2.0 * path.x_2 * done, path.x_2)
-                    of = friction_on_face(
-                        path.face,
-                        springs,
-                        rub,
-                        s,
-                        e,
-                        i,
-                        w[i],
-                        z,
-                        x,
-                        t,
-                        k,
-                        done,
-                        tol,
-                        rate_miss,
-                        T,
-                        modes,
-                        arms,
-                        tools,
-                        look,
-                    )
+                    x = path.x_1 + 2.0 * path.x_2 * done, path.x_2
+                    on = Pressing((z_1, path.z_2), x, t, k, done, tol, rate_miss)
+                    of = friction_on_face(path.face, springs, rub, s, e, i, on, T, modes, arms, tools, look)
                     mode, n, vel = of.mode, of.n, of.vel
                     area, moment = area + w[i] * of.area, moment + w[i] * of.moment
                     stuck, stuck_moment = stuck + w[i] * of.stuck, stuck_moment + w[i] * of.stuck_moment

@@ -396,8 +396,9 @@ def start_of(e, i, top, R, h, G, T, arms):
 
 
 @_inline
-def rub_disc(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tools, look):
-    """Spring i in contact for a time t from `begun` in the step on, as rub_line of line.py."""
+def rub_disc(s, e, i, w, on, T, modes, arms, tools, look):
+    """Friction of spring i over a stretch of contact, as rub_line of line.py."""
+    z, x, t, k, begun, tol, _ = on
     h, G, R = tools.times.h, glassy(arms), cubic(held_force(s, i, z[0], z[1], t, k, T, tools, arms), t)
     if look is not None:
         of_pressing(look.sums, w, s, i, z[0], z[1], t, h, look.nodes, T, modes, arms)

@@ -58,13 +58,9 @@ def nodes_of(t, modes, arms):
     """
     J, K, fastest, rule = 0, 0, 0.0, OF_CUBES
     if arms is not None:
-        J = arms.rate.size
-        for j in range(J):
-            fastest = max(fastest, arms.rate[j])
+        J, fastest = arms.rate.size, arms.rate.max()
     if modes is not None:
-        K = modes.mu.size
-        for k in range(K):
-            fastest = max(fastest, modes.mu[k])
+        K, fastest = modes.mu.size, max(fastest, modes.mu.max())
         rule = OF_SLOW_DECAYS if fastest * t <= 0.5 else OF_DECAYS
     n, per = 1, rule.shape[0]
     while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
@@ -78,12 +74,8 @@ def nodes_of(t, modes, arms):
             nodes.u[g], nodes.weight[g] = u, length * rule[m, 1]
             if arms is not None:
                 for j in range(J):
-                    values = phi_of(u * arms.rate[j])
-                    nodes.phi[g, 0, j], nodes.phi[g, 1, j], nodes.phi[g, 2, j] = (
-                        values[0],
-                        u * values[1],
-                        2.0 * u * u * values[2],
-                    )
+                    of, values = nodes.phi[g], phi_of(u * arms.rate[j])
+                    of[0, j], of[1, j], of[2, j] = values[0], u * values[1], 2.0 * u * u * values[2]
             if modes is not None:
                 for k in range(K):
                     nodes.decay[g, k] = np.exp(-modes.mu[k] * u)

@@ -48,13 +48,9 @@ def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
 
 
 @_inline
-def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact of the time t, from `begun` in the step on; s and e are updated.
-
-    z, x: (z_1, z_2) and (x_1, x_2) of the parabolas then. k: row of tools.times that is filled for t, STEP or PART.
-    tol: rounding of a length, which forces and velocities are told from zero by too. rate_miss: as of slip_velocity.
-    look: None or Look.
-    """
+def rub_line(s, e, i, w, on, T, modes, arms, tools, look):
+    """Friction of spring i over a stretch of contact, `on`; s and e are updated. look: None or Look."""
+    z, x, t, k, begun, tol, rate_miss = on
     h, gone, mode = tools.times.h, 0.0, BEGINS
     area = moment = stuck = stuck_moment = pressed = pressed_moment = 0.0
     for _ in range(MOST_EVENTS):
@@ -126,8 +122,7 @@ def rub_line(s, e, i, w, z, x, t, k, begun, tol, rate_miss, T, modes, arms, tool
         fill(t - gone, modes, arms, tools.times, PART)
     vel = 0.0
     if look is not None:
-        vel = slip_velocity(
-            mode, s, e, i, (begun + t) / h, z[0] + 2.0 * z[1] * t, x[0] + 2.0 * x[1] * t, rate_miss, modes
-        )
+        z_end, x_end = z[0] + 2.0 * z[1] * t, x[0] + 2.0 * x[1] * t
+        vel = slip_velocity(mode, s, e, i, (begun + t) / h, z_end, x_end, rate_miss, modes)
     n = -1.0 if mode == SLIP_BACK else 1.0
     return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, pressed_moment)

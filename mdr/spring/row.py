@@ -102,15 +102,16 @@ def both(a, b):
 
 
 @_lent
-def as_they_are(path, sticking, back, T, arms, tools, lumped, zd, xd):
+def as_they_are(path, last, T, arms, tools, lumped, zd, xd):
     """The force over a step in which every spring keeps the mode that it had at the end of the last one, less that of
     full slip forward. A spring that sticks bears L[e] - L[s] more, one that slips back -2 L[s]. As L is linear and the
     same for all, they are together one spring, with the state `lumped`, which is used up.
 
-    sticking, back: shares of the springs, as of `row` for the last step; the others are those of `row` for this step.
+    last: has the shares of the springs that stuck and slipped back, as of `row` for the last step; the others are those
+    of `row` for this step.
     Answers area, moment and force at the end.
     """
-    h, part = tools.times.h, sticking + 2.0 * back
+    h, sticking, part = tools.times.h, last.sticking, last.sticking + 2.0 * last.back
     p, q = sticking * path.x_1 - part * path.z_1, sticking * path.x_2 - part * path.z_2
     area, moment = hold(lumped, 0, p, q, h, STEP, T, tools, arms)
     return area, moment, end_force(lumped, 0, sticking * xd - part * zd, T, arms)

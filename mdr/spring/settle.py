@@ -32,9 +32,8 @@ class NormalPeriod:
     compression: Array  #: (n_t,) sum of w s at the start of each step
     flight: Array  #: (n_t,) time to the first touch of a step that begins without one and ends in contact; else zero
     force: Array  #: (n_t, n) normal force of each spring over its stiffness at the end of each step, where asked for
-    pressed_for: (
-        Array  #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
-    )
+    #: (n_t, n) share of the step for which it has pressed at its end, zero in flight, where asked for
+    pressed_for: Array
 
     @cached_property
     def mean(self) -> float:

@@ -118,8 +118,10 @@ class Row:
         return Path(self.at(t)[0], p.z_1 + 2 * t * p.z_2, p.z_2, p.x_1 + 2 * t * p.x_2, p.x_2)
 
     def stepped(self, parts=1, look=None):
-        """e, s, and of each spring area and moment of the tangential force, and how long it stuck, all at the end."""
-        e, s, sums, h = self.e.copy(), self.s.copy(), np.zeros((3, self.gap.size)), self.h / parts
+        """e, s, and of each spring area and moment of the tangential force, how long it stuck, and area and moment of
+        the normal force, all at the end.
+        """
+        e, s, sums, h = self.e.copy(), self.s.copy(), np.zeros((5, self.gap.size)), self.h / parts
         tools, lumped, each = tools_for(self.law, h, 1), np.empty((s.shape[0], 1)), look and Each(*np.empty((3, 1)))
         for part in range(parts):
             path, last = self.from_then(part * h), self.from_then((part + 1) * h)
@@ -127,7 +129,8 @@ class Row:
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
                 spring, rates = Springs(self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
                 of = row(two, one, spring, path, *rates, *self.law, tools, lumped, each, look and look[i])
-                sums[:, i] += of.area, of.moment + part * h * of.area, of.stuck
+                moments = of.moment + part * h * of.area, of.normal_moment + part * h * of.normal_area
+                sums[:, i] += of.area, moments[0], of.stuck, of.normal_area, moments[1]
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
         return e, s, *sums
 

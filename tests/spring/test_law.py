@@ -67,9 +67,8 @@ def test_arms_of_many_decades_do_not_disturb_one_another(T, rho):
     assert_allclose(into @ out, np.eye(mu.size), rtol=0, atol=1e-13)
     for rate, (x, *x_j) in zip(mu, out.T, strict=True):
         force = np.array([x, -T * rate * x, *(rho * x_j)])
-        motion = np.array(
-            [-rate * x + 0 * rho, rate * np.array(x_j), -np.array(x_j) / theta]
-        )  # x' - x_j/theta_j - x_j'
+        # x' - x_j/theta_j - x_j'
+        motion = np.array([-rate * x + 0 * rho, rate * np.array(x_j), -np.array(x_j) / theta])
         for terms in (force, motion):  # beside an arm as weak as 1e-9 a rate is known to 1e-16, a difference to 1e-7
             assert np.all(np.abs(terms.sum(axis=0)) < 1e-6 * np.abs(terms).max(axis=0))
         with localcontext() as context:

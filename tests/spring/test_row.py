@@ -33,7 +33,7 @@ def test_a_step_may_be_cut_into_seven(material):
 def test_a_row_is_the_sum_of_its_springs(material):
     one = rows(material)[0]
     (e, s, *sums), (e_all, s_all, of_all, *_) = one.stepped(), one.at_once()
-    all_sums = of_all.area, of_all.moment, of_all.stuck
+    all_sums = of_all.area, of_all.moment, of_all.stuck, of_all.normal_area, of_all.normal_moment
     for whole, each in ((e_all, e), (s_all, s), (all_sums, np.array(sums) @ one.w)):
         assert_allclose(whole, each, rtol=0, atol=1e-13)
 
@@ -60,7 +60,7 @@ def test_it_does_not_know_forward_from_backward(material):
         (e, s, *sums), (e_back, s_back, *back) = one.stepped(), one.mirrored().stepped()
         assert_allclose(e_back, -e, rtol=0, atol=1e-13)
         assert_allclose(s_back, s, rtol=0, atol=1e-13)
-        assert_allclose(back, np.array(sums) * [[-1], [-1], [1]], rtol=0, atol=1e-13)
+        assert_allclose(back, np.array(sums) * [[-1], [-1], [1], [1], [1]], rtol=0, atol=1e-13)
 
 
 # --- against Coulomb's law in tiny steps ---
@@ -104,7 +104,7 @@ def test_a_planted_fault_would_be_seen(material, fault):
 @every_material
 def test_every_energy_goes_somewhere(material):
     for one in rows(material):
-        (e, s, area, moment, stuck), looks = one.looked_at()
+        (e, s, area, moment, stuck, *_), looks = one.looked_at()
         sums = np.array([look.sums for look in looks]).T
         stored = [0.5 * one.roots @ (after**2 - before**2) for after, before in ((e, one.e), (s, one.s))]
         work = one.path.x_1 * area + 2 * one.path.x_2 * moment
@@ -132,9 +132,10 @@ def test_all_modes_are_met(material):
 @every_material
 def test_the_normal_part_alone_is_that_of_the_step(material):
     for one in rows(material):
-        s, area, _, since = one.pressed()
-        (_, s_whole, *_), looks = one.looked_at()
+        s, area, moment, since = one.pressed()
+        (_, s_whole, _, _, _, *normal), looks = one.looked_at()
         assert_allclose(s, s_whole, rtol=0, atol=1e-13)
+        assert_allclose((area, moment), np.array(normal) @ one.w, rtol=0, atol=1e-13)
         of_look = [look.sums[energies.CONTACT_IMPULSE] for look in looks]
         assert_allclose(area, one.w @ of_look, rtol=0, atol=1e-9)  # of the other by Gauss's rule
         assert_array_equal(since > 0, [look.mode[0] != of.FREE for look in looks])
@@ -147,7 +148,7 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
         half = one.h / 2
         (e, s, *_), looks = replace(one, h=half).looked_at()
         then = replace(one, path=one.from_then(half), h=half, e=e, s=s)
-        (_, _, _, _, stuck), after = then.looked_at()
+        (_, _, _, _, stuck, *_), after = then.looked_at()
         before, mode = (np.array([look.mode[0] for look in which]) for which in (looks, after))
         keeps = (mode == before) & (stuck == np.where(mode == of.STICK, half, 0.0)) & (mode != of.FREE)
         first, then = (
@@ -160,7 +161,7 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
         row_of = Springs(first.gap, first.w)
         last = row(first.s.copy(), first.e.copy(), row_of, first.path, 0.0, 0.0, *one.law, tools, lumped, None, None)
         ends = end.z_1, end.x_1
-        area, moment, force = as_they_are(then.path, last.sticking, last.back, T, arms, tools, lumped, *ends)
+        area, moment, force = as_they_are(then.path, last, T, arms, tools, lumped, *ends)
         s_end, of_slip, moment_of_slip, _ = then.pressed()
         normal = one.roots @ (s_end @ then.w) + T * end.z_1 * then.w.sum()
         row_of = Springs(then.gap, then.w)
@@ -174,19 +175,6 @@ def test_a_parabola_that_begins_below_zero_by_a_rounding_and_falls_has_its_zero_
     t, a, b, c, tol = 0.1, -2e-15, 1e-9, -1e-2, 4e-15
     ends = Ends(a, b, a + t * (b + c * t), b + 2 * c * t, 2 * c, 2 * c)
     assert zero_of_parabola.py_func(ends, t, tol, a, b, c) == 0.0
-
-
-@every_material
-def test_the_normal_part_may_be_cut_into_two(material):
-    for one in rows(material):
-        s, area, moment, _ = one.pressed()
-        half = 0.5 * one.h
-        first = Row(material, one.path, half, one.gap, one.s, one.e, one.w)
-        s_1, a_1, m_1, _ = first.pressed()
-        second = Row(material, one.from_then(half), half, one.gap, s_1, one.e, one.w)
-        s_2, a_2, m_2, _ = second.pressed()
-        assert_allclose(s_2, s, rtol=0, atol=1e-11)
-        assert_allclose([a_1 + a_2, m_1 + m_2 + half * a_2], [area, moment], rtol=0, atol=1e-11)
 
 
 def test_tools_of_fewer_springs_are_refused():

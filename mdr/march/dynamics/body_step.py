@@ -25,12 +25,9 @@ _inner = inner(error_model="numpy", fastmath=FAST, **OWN)
 _lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 
-SHORTEST_PART = (
-    1e-6  #: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
-)
-MOST_ITERATIONS = (
-    32  #: of the solution of a step: the slowest, of springs on stiff dashpots, gains half a digit in each
-)
+#: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
+SHORTEST_PART = 1e-6
+MOST_ITERATIONS = 32  #: of a step: the slowest solution, of springs on stiff dashpots, gains half a digit in each
 PLAIN = 2  #: iterations of a step in the plane, before what slip along one direction does to the other is learned
 MOST_PLACES = 99  #: in the search for a zero of one unknown
 BALANCED = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
@@ -106,9 +103,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             ahead = enclosed(e, s, room, of_body, body, springs, here, law, tools)
         path, rate = moved(here.path, ahead, aside, side)
         if slip is not None and iteration == 0:
-            area, moment, end = as_they_are(
-                path, last.sticking, last.back, law.T, law.arms, tools, lumped, here.z_dot, here.x_dot + rate
-            )
+            area, moment, end = as_they_are(path, last, T, arms, tools, lumped, here.z_dot, here.x_dot + rate)
             area, moment, end = here.area + area, here.moment + moment, here.end + end
             stick = last.sticking * h, 0.5 * last.sticking * h * h, last.sticking
         else:

@@ -207,33 +207,16 @@ def kernel_of(kind: Kind) -> Kernel:
         faces = Faces(block[COULOMB], a2.reshape((a2.size // 3, 3)))
         modes = if_there(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
         law = Law(block[OF_T], modes, if_there(Arms(rho, rate), has_arms))
-        motion = Motion(
-            z,
-            z_dot,
-            v,
-            vectors(along, across, in_plane),
-            vectors(along_dot, across_dot, in_plane),
-            if_there(faces, has_face),
-        )
+        shake, shake_dot = vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane)
+        motion = Motion(z, z_dot, v, shake, shake_dot, if_there(faces, has_face))
         state = as_numbers(x, in_plane)
         e = state[: s.size].reshape(s.shape)
-        body = body_at(block, ALONG)
+        body, side = body_at(block, ALONG), if_there(body_at(block, ACROSS), in_plane)
         tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0], gap.size)
-        return march(
-            e,
-            s,
-            state[s.size :],
-            body,
-            if_there(body_at(block, ACROSS), in_plane),
-            Springs(gap, w, if_there(x2, has_face)),
-            if_there(FullSlipForce(area, moment, end), has_slip),
-            if_there(flight, has_flight),
-            motion,
-            law,
-            tools,
-            n_steps,
-            trace_of(trace, n_steps, in_plane),
-        )
+        springs = Springs(gap, w, if_there(x2, has_face))
+        slip, flown = if_there(FullSlipForce(area, moment, end), has_slip), if_there(flight, has_flight)
+        steps = trace_of(trace, n_steps, in_plane)
+        return march(e, s, state[s.size :], body, side, springs, slip, flown, motion, law, tools, n_steps, steps)
 
     # the name of its files in the cache, in which all kernels would have one
     kernel.__qualname__ = "kernel_" + "".join("0" if one is None else "1" for one in kind)

@@ -62,9 +62,8 @@ class Trace(NamedTuple):
     moment: Array  #: (n_steps,) of it
     y: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
     rate: Array  #: (n_steps,) its rate there
-    parts: (
-        Array  #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts; if the first has no length, no more is set
-    )
+    #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts; if the first has no length, no more is set
+    parts: Array
 
 
 class Seen(NamedTuple):

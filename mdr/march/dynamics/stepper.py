@@ -186,11 +186,9 @@ class Stepper:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
         scaled, n, n_steps = self.scaled, self.scaled.springs.gap.size, self.scaled.drive.steps
         before, state = state, state.copy()
-        kept = n_steps if keep else 0
-        like = state.e[0]
-        sums, F, keep_n = np.zeros(N_SUMS), np.zeros((n_steps, 4)), (kept, n)
-        mode, f_z, s = np.zeros((3, *keep_n))
-        f, e = np.zeros((2, *keep_n), like.dtype)
+        sums, F, kept = np.zeros(N_SUMS), np.zeros((n_steps, 4)), n_steps if keep else 0
+        mode, f_z, s = np.zeros((3, kept, n))
+        f, e = np.zeros((2, kept, n), state.e.dtype)
         seen = loop.Seen(sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
@@ -241,11 +239,9 @@ class Stepper:
 
     def directions(self, y: Array, rate: Array) -> list[tuple[Body, AxisMotion, float, tuple[Array, Array]]]:
         """Body, shake, velocity of the pull, and motion and rate of the body, along the pull and across it."""
-        drive, aside = self.scaled.drive, self.scaled.drive.across
-        along: list[tuple[Body, AxisMotion, float, tuple[Array, Array]]] = [
-            (self.scaled.body, drive.along, self.v, (y.real, rate.real))
-        ]
-        return along if aside is None else [*along, (self.scaled.body_across, aside, 0.0, (y.imag, rate.imag))]
+        scaled, aside = self.scaled, self.scaled.drive.across
+        along = scaled.body, scaled.drive.along, self.v, (y.real, rate.real)
+        return [along] if aside is None else [along, (scaled.body_across, aside, 0.0, (y.imag, rate.imag))]
 
 
 def least_between(values: Array) -> float:
