@@ -98,28 +98,20 @@ class MarchEnd:
         return self.settling.mean
 
     @property
-    def mean_F_z(self) -> float:
-        """Mean of F_z in scaled form."""
-        return self.scaled.normal.mean
-
-    @property
     def load_error(self) -> float:
         """Relative error of the mean normal force under a load that is given; zero where the depth is."""
         load, units = self.case.oscillation.load, self.scaled.units
-        return 0.0 if load is None else abs(self.mean_F_z * units.stiffness_z * units.length_z / load.F_z0 - 1)
-
-    @property
-    def depth_error(self) -> float:
-        """The greater of load_error and the relative error to which the depth was solved; zero where it is given."""
-        return 0.0 if self.case.oscillation.load is None else max(self.case.cycle.missing, self.load_error)
+        mean = self.scaled.normal.mean
+        return 0.0 if load is None else abs(mean * units.stiffness_z * units.length_z / load.F_z0 - 1)
 
     @property
     def hidden_error(self) -> float:
-        """Error over mu_0 that no companion shows: of the load, of slow arms that are taken for springs, and of stick
-        at the edge of contact that neither sees.
+        """Error over mu_0 that no companion shows: of the load, or of the depth that was solved from it, of slow arms
+        that are taken for springs, and of stick at the edge of contact that neither sees.
         """
+        of_depth = max(self.case.cycle.missing, self.load_error)
         unseen = self.scaled.unseen(self.scaled.drive.pace(self.stepper.v)) if self.scaled.faces else 0.0
-        return self.depth_error + unseen + (0.0 if self.slips_fully else self.scaled.slow.error)
+        return of_depth + unseen + (0.0 if self.slips_fully else self.scaled.slow.error)
 
     @property
     def to_begin_from(self) -> MarchEnd | None:

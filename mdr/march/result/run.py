@@ -104,33 +104,21 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
         spent = self.energy_balance
         kept = "none; slide(..., record=1) keeps forces and springs" if self.t is None else f"{self.t.size} instants"
         size = f"{self.n_springs} springs, {self.steps_per_period} steps per period, {self.n_periods} periods"
-        return Summary(
-            f"SlidingRun at v_0 = {number(self.v_0, 'm/s')}",
-            [
-                (
-                    "COF",
-                    with_error(self.cof, self.cof_error),
-                    f"{self.share:.6g} of {greatest(self.full_cof, self.mu_0)}",
-                ),
-                ("settled", "yes" if self.settled else "no", self.kind),
-                *([("why", self.why, "")] if self.why else []),
-                ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),
-                *(
-                    [("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z")]
-                    if abs(self.cof_y) > self.cof_error
-                    else []
-                ),
-                ("mean F_x", number(self.mean_F_x, "N"), "tangential force, which holds the indenter back"),
-                ("mean F_z", number(self.mean_F_z, "N"), "normal force"),
-                (
-                    "energy",
-                    f"{spent.residual:.1e} J",
-                    f"missing from the balance of one period, {spent.lost:.4g} J lost in it",
-                ),
-                ("march", size, ""),
-                ("record", kept, ""),
-            ],
-        )
+        missing = f"missing from the balance of one period, {spent.lost:.4g} J lost in it"
+        across = ("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z")
+        rows = [
+            ("COF", with_error(self.cof, self.cof_error), f"{self.share:.6g} of {greatest(self.full_cof, self.mu_0)}"),
+            ("settled", "yes" if self.settled else "no", self.kind),
+            *([("why", self.why, "")] if self.why else []),
+            ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),
+            *([across] if abs(self.cof_y) > self.cof_error else []),
+            ("mean F_x", number(self.mean_F_x, "N"), "tangential force, which holds the indenter back"),
+            ("mean F_z", number(self.mean_F_z, "N"), "normal force"),
+            ("energy", f"{spent.residual:.1e} J", missing),
+            ("march", size, ""),
+            ("record", kept, ""),
+        ]
+        return Summary(f"SlidingRun at v_0 = {number(self.v_0, 'm/s')}", rows)
 
     def table(self) -> str:
         """Time, position, depth and forces of the recorded periods as CSV.
@@ -207,10 +195,9 @@ def finish(end: MarchEnd) -> SlidingRun:
         end = end.unsettled(open_account, contradicts=True)
     case, scaled, settling = end.case, end.scaled, end.settling
     full = full_cof(case)
-    force_z = scaled.units.stiffness_z * scaled.units.length_z
     if not account.sees_contact:
         raise too_coarse(scaled.drive.steps)
-    mean_F_z = scaled.normal.mean * force_z
+    mean_F_z = scaled.normal.mean * (scaled.units.stiffness_z * scaled.units.length_z)
     error += end.hidden_error + case.cycle.lost_in_digits
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
@@ -269,17 +256,15 @@ def _recorded(end: MarchEnd, records: tuple[PeriodRecord, ...]) -> dict[str, Any
     F_x, F_z, F_y, y, e, s, f, f_z, mode = (
         np.concatenate(parts) for parts in zip(*(_arrays(record) for record in records), strict=True)
     )
-    n_steps = F_x.size
-    t = (end.n_periods - end.resolution.record) * end.case.period + np.arange(
-        1, n_steps + 1
-    ) * scaled.drive.h / scaled.units.omega
+    step = np.arange(1, F_x.size + 1)
+    t = (end.n_periods - end.resolution.record) * end.case.period + step * scaled.drive.h / scaled.units.omega
     if scaled.slow.rho:  # they have relaxed about the mean, from which the stiffer springs were counted
         s = s + scaled.slow.sunk
         e = e + scaled.slow.rho * e.mean(axis=0)
     n = scaled.n_alike
     if n > 1:
         e, s, f, f_z, mode = (np.repeat(one, n, axis=1) for one in (e, s, f, f_z, mode))
-    phase = np.arange(1, n_steps + 1) % scaled.drive.steps
+    phase = step % scaled.drive.steps
     share, side = springs.width / springs.width.sum(), scaled.drive.across
     across: dict[str, Any] = {}
     if side is not None:

@@ -101,10 +101,9 @@ def slide(
     if not isinstance(lump, bool):
         raise TypeError(f"lump must be True or False, got {lump!r}")
     v_0 = _velocity(case, v_0)
-    if v_0 < 0:
-        case, v_0, back = case.mirrored, -v_0, True
-    else:
-        back = False
+    back = v_0 < 0
+    if back:
+        case, v_0 = case.mirrored, -v_0
     if start not in ("full_slip", "rest"):
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
     least = 32 if n_periods is None else 16  # companions have half
