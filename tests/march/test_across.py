@@ -49,10 +49,7 @@ def test_slow_slides_tend_to_what_is_held():
 
 @pytest.mark.parametrize("du_x", [0.0, 3e-6])
 def test_a_curve_has_the_forces_across_of_its_runs_both_ways(du_x):
-    motion, punch = (
-        mdr.NormalOscillation(DEPTH, 5e-6, OMEGA),
-        mdr.FlatPunch(a=1e-3),
-    )  # one spring: rest takes long
+    motion, punch = mdr.NormalOscillation(DEPTH, 5e-6, OMEGA), mdr.FlatPunch(a=1e-3)  # one spring: rest takes long
     case = contact(0.5, punch, du_x=du_x, phi_x=0.7, oscillation=motion)
     v_0 = np.array([-1e-3, 1e-3, 2e-3])
     curve, runs = mdr.cof_curve(case, v_0, accuracy=1e-4), [mdr.slide(case, v) for v in v_0]

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import SHAPES
+from contacts import solid, with_arms
 from numpy.testing import assert_allclose
 
 import mdr
@@ -14,18 +15,13 @@ ARMS = {"one": ((2.0,), (0.7,)), "two": ((1.5, 0.5), (0.3, 4.0)), "fast and slow
 OMEGA = 300.0
 
 
-def material(T, rho, theta, E=3e6):
-    return mdr.Prony(E, [(E * r, t / OMEGA) for r, t in zip(rho, theta, strict=True)], 0.4, T / OMEGA)
-
-
-def case(T, rho, theta, shape="paraboloid", depth_ratio=3.0, pull=None, du_z=2e-6):
-    motion = mdr.NormalOscillation(depth_ratio * du_z, du_z, OMEGA)
-    return mdr.SlidingContact(SHAPES[shape][0], material(T, rho, theta), 0.4, motion, pull or mdr.RigidPull())
+def case(T, rho, theta, shape="paraboloid", depth_ratio=3.0):
+    return with_arms(shape, depth_ratio, solid(T, rho, theta), 0.0).case
 
 
 @pytest.mark.parametrize("arms", ARMS.values(), ids=ARMS)
 def test_response_is_the_dynamic_modulus(arms):
-    body = material(0.3, *arms)
+    body = solid(0.3, *arms)
     n = np.array([0.5, 1.0, 7.0])
     expected = np.asarray(body.dynamic_modulus(n * OMEGA)) / body.E_star
     assert_allclose(Rheology.of(body, OMEGA).response(n), expected, rtol=1e-13)
@@ -89,11 +85,8 @@ def slow_contact(name, tau, rho=(40.0, 0.6)):
     body = mdr.Prony(3e6, [(3e6 * rho[0], tau / OMEGA), (3e6 * rho[1], 1.7 / OMEGA)], 0.4)
     one = mdr.SlidingContact(SHAPES[shape][0], body, 0.4, mdr.NormalOscillation(10e-6, alpha * 10e-6, OMEGA))
     k_x = 20 * one.k_xc
-    return (
-        replace(one, pull=mdr.SpringPull(k_x=k_x, m=k_x / (1.6 * OMEGA) ** 2, c_x=0.3 * k_x / OMEGA))
-        if has_body
-        else one
-    )
+    pull = mdr.SpringPull(k_x=k_x, m=k_x / (1.6 * OMEGA) ** 2, c_x=0.3 * k_x / OMEGA)
+    return replace(one, pull=pull) if has_body else one
 
 
 @pytest.mark.parametrize("name", SLOW_CONTACTS)
@@ -120,9 +113,8 @@ def test_arms_over_thirty_decades_are_those_that_a_period_sees_beside_a_spring()
     runs = [mdr.slide(mdr.SlidingContact(SHAPES["cone"][0], one, 0.4, motion), 2e-4) for one in (table, few)]
     assert runs[0].settled
     assert runs[0].cof_error <= 1.1e-5 * 0.4
-    assert_allclose(
-        runs[0].cof, runs[1].cof, rtol=0, atol=4e-6 * 0.4
-    )  # arms of 1e-8/omega and 30 E are dashpots of 3e-7
+    # arms of 1e-8/omega and 30 E are dashpots of 3e-7
+    assert_allclose(runs[0].cof, runs[1].cof, rtol=0, atol=4e-6 * 0.4)
 
 
 def test_slip_and_stick_are_told_apart_where_an_extension_dwarfs_a_step():

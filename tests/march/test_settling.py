@@ -51,20 +51,15 @@ def test_a_short_run_cannot_tell(n):
 
 
 @pytest.mark.parametrize("kind", DYING)
-def test_what_dies_out_settles_in_the_end_and_not_before(kind):
-    settled = [assess(DYING[kind](n), TOLERANCE).settled for n in LENGTHS]
+def test_what_dies_out_settles_in_the_end_and_not_before_it_is_near_its_limit(kind):
+    found = [assess(DYING[kind](n), TOLERANCE) for n in LENGTHS]
+    settled = [one.settled for one in found]
     assert settled[-1]
     assert not settled[0]
     assert settled == sorted(settled)  # once settled, it stays so
-
-
-@pytest.mark.parametrize("kind", DYING)
-def test_a_settled_run_is_within_tolerance_of_its_limit(kind):
-    for n in LENGTHS:
-        found = assess(DYING[kind](n), TOLERANCE)
-        if found.settled:
-            # where the half, the quarter and the eighth are no whole numbers the ratio is off by 1/n
-            assert abs(found.mean - LIMIT) <= TOLERANCE * (1 + 8 / n)
+    for n, one in zip(LENGTHS, found, strict=True):
+        # where the half, the quarter and the eighth are no whole numbers the ratio is off by 1/n
+        assert not one.settled or abs(one.mean - LIMIT) <= TOLERANCE * (1 + 8 / n)
 
 
 @pytest.mark.parametrize("n", [32, 64, 256, 1024, 8192])
@@ -201,15 +196,6 @@ def test_small_amplitudes_settle_and_lose_in_proportion(v_hat):
         assert run.settled
         assert_allclose((run.mu_0 - run.cof) / alpha, lost, rtol=1e-3)
         assert run.cof_error < 0.01 * (run.mu_0 - run.cof)
-
-
-@pytest.mark.parametrize("knobs", [{"n_periods": 9}, {"n_periods": 3}, {"limit_s": 1e-6}])
-def test_a_run_that_has_not_settled_knows_of_friction_that_it_is_friction(knobs):
-    """Windows that agree, or an error of step and springs, bound nothing there."""
-    case = contact("paraboloid", 3.0, k_ratio=0.7, omega_0_ratio=1.6)
-    run = mdr.slide(case, 0.3 * unit_of_velocity(case), start="rest", n_springs=32, steps_per_period=64, **knobs)
-    assert not run.settled
-    assert run.cof_error == 2 * case.mu_0
 
 
 def test_rounding_is_settled():

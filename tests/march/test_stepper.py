@@ -30,14 +30,22 @@ def test_no_value_is_made_up_beside_a_jump():
     assert least_between(np.array([1.0, 0.0, -0.2, 0.0, 1.0, 2.0])) == -0.2
 
 
+SHAKES = {"line": None, "plane": mdr.InPlaneOscillation(300.0, 3e-6, 1.0, 6e-6, 2.0)}
+on_a_line_and_in_the_plane = pytest.mark.parametrize("shake", SHAKES.values(), ids=SHAKES)
+
+
+def stepper_of(shake, u_z0, tau):
+    """A march of a ball."""
+    motion = mdr.NormalOscillation(u_z0, 8e-6, 300.0)
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.4, tau), 0.4, motion, shake=shake)
+    return Stepper(at_hand(case, Resolution(32, 64, "full_slip", True))[1], 0.3)
+
+
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
-@pytest.mark.parametrize("shake", [None, mdr.InPlaneOscillation(300.0, 3e-6, 1.0, 6e-6, 2.0)], ids=["line", "plane"])
+@on_a_line_and_in_the_plane
 def test_a_close_look_leaves_no_array_behind(shake):
     """Rules over parts of a step are made in compiled code that lends its arrays."""
-    motion = mdr.NormalOscillation(5e-6, 8e-6, 300.0)
-    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.KelvinVoigt(3e6, 0.4, 1e-3), 0.4, motion, shake=shake)
-    _, scaled = at_hand(case, Resolution(32, 64, "full_slip", True))
-    stepper = Stepper(scaled, 0.3)
+    stepper = stepper_of(shake, 5e-6, 1e-3)
     start = stepper.full_slip()
     stepper.observe(start, keep=False)
     _nrt_python.memsys_enable_stats()
@@ -48,12 +56,10 @@ def test_a_close_look_leaves_no_array_behind(shake):
     assert after.alloc - before.alloc == after.free - before.free > 0
 
 
-@pytest.mark.parametrize("shake", [None, mdr.InPlaneOscillation(300.0, 3e-6, 1.0, 6e-6, 2.0)], ids=["line", "plane"])
+@on_a_line_and_in_the_plane
 def test_a_combination_of_states_is_brought_into_the_cone_of_friction(shake):
     """As long as the compression, in its own direction; what lies within stays as it is."""
-    motion = mdr.NormalOscillation(20e-6, 8e-6, 300.0)
-    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.Elastic(3e6, 0.4), 0.4, motion, shake=shake)
-    stepper = Stepper(at_hand(case, Resolution(32, 64, "full_slip", True))[1], 0.3)
+    stepper = stepper_of(shake, 20e-6, 0.0)
     state, inside = stepper.full_slip(), stepper.full_slip()
     turned = -1.0 if shake is None else np.exp(2j)
     state.e[:] = 7 * turned * state.s

@@ -1,7 +1,5 @@
 """What no settled run may contradict: on numbers, and on random bodies."""
 
-from itertools import combinations
-
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
@@ -29,19 +27,11 @@ def test_friction_that_falls_with_velocity_is_named_at_both_velocities():
 
 @pytest.mark.parametrize("seed", range(12))
 def test_no_settled_run_of_a_random_body_contradicts_a_theorem(seed):
-    """One velocity has one COF, whatever the start, between the static limit and mu_0, and no less at a higher one."""
-    system = theorems.drawn(seed)
-    case, v_0 = system.case, system.v_0
-    known = (mdr.slide(case, v_0), mdr.slide(case, v_0, start="rest"), mdr.slide(case, 1.05 * v_0))
-    least, ended = mdr.static_cof(case), [run for run in known if run.settled]
-    assert all(run.why for run in known if not run.settled)
-    for run in ended:
-        assert least - 1e-4 * case.mu_0 <= run.cof + run.cof_error
-        assert run.cof - run.cof_error <= case.mu_0
-    for one, two in combinations(ended, 2):
-        apart = one.cof - two.cof
-        assert apart <= one.cof_error + two.cof_error
-        assert one.v_0 < two.v_0 or -apart <= one.cof_error + two.cof_error
+    """Three runs of each: from both starts, and a little faster."""
+    row = theorems.row(seed)
+    assert row.contradictions == ()
+    assert all(row.reasons)
+    assert row.settled + len(row.reasons) == 3
 
 
 @pytest.mark.parametrize("seed", [0, 2, 4, 5, 7])

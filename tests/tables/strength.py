@@ -54,7 +54,7 @@ def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float, twin.Contact]]:
         known = twin.Contact(
             PROFILES[shape], E, NU, tau, arms, mu_0, tau_0, OMEGA, DEPTH, alpha * DEPTH, v,
             tuple(amplitude(way) for way in (case.shake_harmonics, case.harmonics_across)),
-            tuple((m or 1.0, c, k) for m, c, k in (case.pull.coefficients, case.pull.across)),
+            (case.pull.coefficients, case.pull.across),
         )  # fmt: skip
         name = f"{i}: {shape}, {rheology}, mu_0 = {mu_0}, {kind}, alpha = {alpha:.3g}, v = {v / case.pace:.3g}"
         out.append((name, case, v, known))

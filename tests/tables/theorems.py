@@ -17,6 +17,7 @@ import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from itertools import combinations
 from multiprocessing import get_context
 
 import numpy as np
@@ -42,7 +43,6 @@ class System:
     name: str
     case: mdr.SlidingContact
     v_0: float
-    near: int  #: the whole multiple that it stands by, or 0
 
 
 def drawn(seed: int) -> System:
@@ -77,7 +77,7 @@ def drawn(seed: int) -> System:
     v_0 = float(rng.uniform(0.05, 1.2)) * (full if math.isfinite(full) else mdr.resolved(case).unit_velocity)
     said = f"{seed}: {name}, {type(material).__name__}, nu {nu:.4g}, alpha {alpha:.4g}, omega_0 {ratio:.8g}"
     said += f", k {k_x / k_xc:.4g}, zeta {zeta:.3g}, {type(motion).__name__}, {v_0 / full:.4g} v_c"
-    return System(said, case, v_0, near)
+    return System(said, case, v_0)
 
 
 @dataclass(frozen=True)
@@ -117,15 +117,11 @@ def row(seed: int) -> Row:
             told.append(f"{name}: {run.cof:.8g} +- {run.cof_error:.1g} is below the static limit {least:.8g}")
         if run.cof > MU_0 + run.cof_error:
             told.append(f"{name}: {run.cof:.8g} is above mu_0")
-    if ended.keys() >= {"full slip", "rest"}:
-        one, two = ended["full slip"], ended["rest"]
-        if abs(one.cof - two.cof) > one.cof_error + two.cof_error:
-            told.append(f"starts: {one.cof:.8g} +- {one.cof_error:.1g} and {two.cof:.8g} +- {two.cof_error:.1g}")
-    if "faster" in ended:
-        for name in ended.keys() & {"full slip", "rest"}:
-            one, two = ended[name], ended["faster"]
-            if one.cof > two.cof + one.cof_error + two.cof_error:
-                told.append(f"faster: {one.cof:.8g} +- {one.cof_error:.1g}, then {two.cof:.8g} +- {two.cof_error:.1g}")
+    for (first, one), (then, two) in combinations(ended.items(), 2):
+        falls, slack = one.cof - two.cof, one.cof_error + two.cof_error
+        if falls > slack or (one.v_0 == two.v_0 and -falls > slack):
+            cofs = f"{one.cof:.8g} +- {one.cof_error:.1g} and {two.cof:.8g} +- {two.cof_error:.1g}"
+            told.append(f"{first}, then {then}: {cofs}")
     told += continued(case, v_0, runs["full slip"])
     reasons = tuple(run.why for run in runs.values() if not run.settled)
     return Row(system.name, tuple(told), len(ended), reasons, tuple(seconds))

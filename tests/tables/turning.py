@@ -87,13 +87,13 @@ def by_twin(shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) ->
     """COF over mu_0 along and across the pull."""
     unit, k_xc, L = case.cycle.unit, case.k_xc, case.rheology
     length = MU_0 * case.material.mindlin_ratio * unit
-    body, across = (
-        None if math.isinf(k) else (m * case.omega**2 / k_xc, c * case.omega / k_xc, k / k_xc)
+    bodies = (  # k_xc is zero of a rigid pull that does not touch at its mean depth
+        twin.RIGID if math.isinf(k) else (m * case.omega**2 / k_xc, c * case.omega / k_xc, k / k_xc)
         for m, c, k in (case.pull.coefficients, case.pull.across)
     )
     motion = case.cycle.harmonics, case.way / length, case.way_across / length, v_0 / (length * case.omega)
     material = L.T, L.rho, L.theta
-    return twin.friction(SHAPES[shape][1], case.cycle.u_z0 / unit, *motion, material, body, across, **knobs)
+    return twin.friction(SHAPES[shape][1], case.cycle.u_z0 / unit, *motion, material, *bodies, **knobs)
 
 
 def row_of(name: str, shape: str, case: mdr.SlidingContact, v_0: float, **knobs: float) -> Row:

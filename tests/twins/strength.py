@@ -18,7 +18,6 @@ from twins import tiny_steps
 from twins.tiny_steps import Body, Friction, Law, Row, crowded, motion_of, pulled, response
 
 FLAT = math.inf  #: exponent of a flat face
-RIGID = (1.0, 0.0, math.inf)  #: m, c, k of what does not yield
 
 
 class Contact(NamedTuple):
@@ -35,8 +34,8 @@ class Contact(NamedTuple):
     u_z0: float
     du_z: float
     v_0: float
-    shake: tuple[complex, complex] = (0.0, 0.0)  #: amplitudes along and across, Re of x exp(i omega t)
-    bodies: tuple[tuple[float, float, float], tuple[float, float, float]] = (RIGID, RIGID)  #: m, c, k of each way
+    shake: tuple[complex, complex]  #: amplitudes along and across, Re of x exp(i omega t)
+    bodies: tuple[tuple[float, float, float], tuple[float, float, float]]  #: m, c, k of each way, k infinite if rigid
 
 
 def paraboloid(R):

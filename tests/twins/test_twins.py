@@ -58,10 +58,6 @@ KELVIN, ARMS = (0.3, (), ()), (0.3, (1.0, 0.5), (0.3, 2.0))
 FEW = {"steps": 4096, "count": 64}
 
 
-def rigid_body():
-    return twin.Body(np.zeros(2), np.zeros(2), np.full(2, np.inf))
-
-
 @pytest.mark.parametrize("depth", [0.7, 2.0])
 def test_what_turns_nowhere_is_what_is_shaken_along(depth):
     x_n = [1.5 * np.exp(0.7j)]
@@ -81,7 +77,7 @@ def test_no_direction_is_special(material, yields):
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     L = twin.Law(material[0], *(np.array(one) for one in material[1:]))
     row, motion = twin.springs(2, 0.8, (0.0, 1.8), 32), twin.motion_of([1.0], [0.5j, 0.2], [2.0, 0.3j], 0.5, 256)
-    body = twin.Body(*(np.full(2, one) for one in (0.8, 0.5, 1.2))) if yields else rigid_body()
+    body = twin.Body(*(np.full(2, one) for one in ((0.8, 0.5, 1.2) if yields else twin.RIGID)))
     turned = motion._replace(u=np.ascontiguousarray(turn @ motion.u), v=turn @ motion.v)
     state = twin.at_rest(row, L, motion, body)
     other = State(*(np.array(one) for one in state))

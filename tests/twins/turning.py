@@ -17,6 +17,7 @@ from twins import tiny_steps
 from twins.tiny_steps import Body, Law, Row, crowded, motion_of, pulled, response
 
 ELASTIC = 0.0, (), ()  #: T, rho, theta
+RIGID = 0.0, 0.0, math.inf  #: M, C, K of what does not yield
 
 
 def springs(n, depth, parts, count):
@@ -49,18 +50,17 @@ def bends(depth, z_n, law):
     return depth + z.min(), depth + p.min(), depth + z.max()
 
 
-def friction(n, depth, z_n, x_n, y_n, v, material=ELASTIC, body=None, across=None, steps=16384, count=128):
+def friction(n, depth, z_n, x_n, y_n, v, material=ELASTIC, body=RIGID, across=RIGID, steps=16384, count=128):
     """COF over mu_0 along and across, in the state that repeats itself, which is begun with full slip along the pull.
 
     n, depth: exponent of the shape, infinite for a flat punch, and mean depth. z_n, x_n, y_n: complex amplitudes of
     harmonics 1, 2, ... of depth and motion; of a shaken pulling point, those of the body without friction. v: pull, of
-    either sign. material: T, rho, theta. body, across: (M, C, K) along and across the pull, None where nothing yields.
+    either sign. material: T, rho, theta. body, across: (M, C, K) along and across the pull.
     steps: per period, of the finest of four marches. count: springs; what four times as many would change is found
     with few steps.
     """
     law = Law(float(material[0]), *(np.array(one, dtype=float) for one in material[1:]))
-    given = np.array([(1.0, 0.0, math.inf) if one is None else one for one in (body, across)], dtype=float)
-    body = Body(*np.ascontiguousarray(given.T))
+    body = Body(*np.array([body, across], dtype=float).T.copy())
     row_of, motion_in = partial(springs, n, depth, bends(depth, z_n, law)), partial(motion_of, z_n, x_n, y_n, v)
     return tiny_steps.friction(law, body, row_of, motion_in, at_rest, steps, count)
 
