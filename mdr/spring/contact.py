@@ -1,4 +1,4 @@
-"""One spring over one step of time, in contact or in flight: its normal motion, in which friction has no part.
+"""A row of springs over one step of time. Each presses or flies; friction is a function that is handed in.
 
 The indenter carries the springs: the top of each moves with it, its foot touches the plane. In a step the top moves on
 parabolas, z_1 t + z_2 t² down and x_1 t + x_2 t² in the plane. With the compression s, the extension e and the law L of
@@ -7,10 +7,11 @@ the material (law.py) a spring
 * *presses*: s goes with the top, until its force L[s] comes to zero;
 * *flies*: s and e recover without force, L[s] = L[e] = 0, until the indenter meets the surface again, z - gap = s.
 
-All is scaled: forces by the long-time stiffness, tangential lengths by mu_0 kappa, so that Coulomb's law is
-|L[e]| <= L[s]; a face with a shear strength has another limit (face.py).
+All is scaled: normal lengths by some unit, tangential ones by mu_0 kappa times it, forces by the long-time stiffness,
+so that Coulomb's law is |L[e]| <= L[s]; a face with a shear strength has another limit (face.py).
 
-While it presses, friction moves e: a function of a stretch of contact that is handed in (line.py, disc.py), or None.
+While it presses, friction changes e. `rub` (line.py, disc.py) computes this over a stretch of contact; None leaves it
+out.
 What happens is exact from event to event along a line, so that the only error of a step there is that of the parabolas;
 slip that turns (dragged.py) and a strength (face.py) are met to some order in the step. Elastic springs, dashpots
 (Kelvin) and Maxwell arms are one text: what a material lacks is None, and compiled away.
@@ -62,7 +63,7 @@ MOST_EVENTS = 100  #: of a spring in one step or stretch of contact; what comes 
 class Springs(NamedTuple):
     """A row of springs."""
 
-    gap: Array  #: (n,) depth of each foot below the mean surface position
+    gap: Array  #: (n,) motion z of the indenter at which each foot meets the surface
     w: Array  #: (n,) share of each spring in the stiffness
     x2: Array | None = None  #: (n,) x² of each, in the unit of a Face; None where friction is Coulomb's alone
 
@@ -88,14 +89,14 @@ class Answer(NamedTuple):
 
 
 class Pressing(NamedTuple):
-    """A stretch of contact: the motion of the top in it, and what is told from zero."""
+    """A stretch of contact: the motion of the top in it, and what counts as zero."""
 
     z: tuple[float, float]  #: z_1, z_2 of the parabola of its depth, with the time from the start of the stretch
     x: tuple[complex, complex]  #: x_1, x_2 of its displacement
     t: float  #: length of the stretch
     k: int  #: row of tools.times that is filled for t, STEP or PART
     begun: float  #: when it begins in the step
-    tol: float  #: rounding of a length, which forces and velocities are told from zero by too
+    tol: float  #: rounding of a length: what is less counts as zero, of forces and velocities too
     rate_miss: tuple[float, complex]  #: true rates of the top at the end of the step, less those of the parabolas
 
 
@@ -125,7 +126,7 @@ class Look(NamedTuple):
     """Detailed output of a step of n springs; filled only on request."""
 
     nodes: Nodes  #: over the whole step
-    sums: Array  #: (N_SUMS,) of which it adds up
+    sums: Array  #: (N_SUMS,) totals that the step adds to
     F: Array  #: (4,) at the end: force along, normal force, least (signed) slip velocity in contact, force across
     mode: Array  #: (n,) of each spring at the end of the step
     f: Array  #: (n,) its tangential force over its stiffness: numbers along a line, vectors in the plane
@@ -159,7 +160,7 @@ def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, too
 
 @_inline
 def direction(a):
-    """That of a number or a vector; nothing of nothing."""
+    """Unit vector of a vector, or sign of a number; zero of zero."""
     size = size_of(a)
     return a / size if size > 0.0 else 0.0 * a
 
@@ -172,13 +173,13 @@ def within(f, R):
 
 @_inline
 def friction_on_face(face, springs, rub, s, e, i, on, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact, by `rub`. On a face with a strength `rub` is run with the
-    compression q whose force is the limit (face.py), and s is put back.
+    """Friction of spring i over a stretch of contact, by `rub`. On a face with a strength, s and its motion are first
+    raised so that their force is the limit (face.py); after `rub`, s is what the stretch makes of it without that.
     """
     w = springs.w[i]
     if face is None:
         return rub(s, e, i, w, on, T, modes, arms, tools, look)
-    z, x, t, k, done, tol, rate_miss = on
+    z, x, t, k, begun, tol, rate_miss = on
     kept, x2 = tools.room.kept, springs.x2[i]
     for j in range(s.shape[0]):
         kept[j, 0] = s[j, i]
@@ -188,14 +189,14 @@ def friction_on_face(face, springs, rub, s, e, i, on, T, modes, arms, tools, loo
         look.sums[CONTACT_IMPULSE] = impulse
         work, viscous = look.sums[NORMAL_WORK], look.sums[NORMAL_VISCOUS]
     A, B = hold(kept, 0, z[0], z[1], t, k, T, tools, arms)
-    q = raise_to_limit(s, i, z, strengths(face, x2, done, t), t, face.coulomb, T, arms)
+    q = raise_to_limit(s, i, z, strengths(face, x2, begun, t), t, face.coulomb, T, arms)
     tol += ROUNDING * (abs(s[0, i]) + size_of(e[0, i]))
-    of = rub(s, e, i, w, Pressing(q, x, t, k, done, tol, rate_miss), T, modes, arms, tools, look)
+    of = rub(s, e, i, w, Pressing(q, x, t, k, begun, tol, rate_miss), T, modes, arms, tools, look)
     for j in range(s.shape[0]):
         s[j, i] = kept[j, 0]
     if look is not None:
         look.sums[NORMAL_WORK], look.sums[NORMAL_VISCOUS] = work, viscous
-    return Friction(of.mode, of.n, of.vel, of.area, of.moment, of.stuck, of.stuck_moment, A, done * A + B)
+    return Friction(of.mode, of.n, of.vel, of.area, of.moment, of.stuck, of.stuck_moment, A, begun * A + B)
 
 
 @_inline
@@ -208,7 +209,7 @@ def limit_of(face, springs, i, R, h):
 
 @_inline
 def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
-    """Springs over a step; s and e are updated, an Answer comes out.
+    """Springs over a step; s and e (1 + J, n) are updated: row 0 the spring, the others its arms. An Answer comes out.
 
     rub: function of the friction over a stretch of contact, rub_line or rub_disc; or None, as e, for the normal part
     alone. made (n,): not zero for springs that were stepped already; or None. T, modes, arms: of the law (law.py). The

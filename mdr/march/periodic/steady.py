@@ -1,8 +1,8 @@
 """One march of a contact, brought to its steady state.
 
 The periodic state is searched for from full slip (search.py). Where none is found, and from rest, the march goes on
-until the COF settles (waiting.py). Springs under a rigid pull do not know of each other: along a line elastic ones need
-two periods from full slip, others are solved for one by one (each_alone.py).
+until the COF settles (waiting.py). Springs under a rigid pull are independent: elastic ones along a line need two
+periods from full slip; those with arms, and those in the plane, are solved for one by one (each_alone.py).
 """
 
 from __future__ import annotations
@@ -26,10 +26,12 @@ from mdr.normal.springs import SpringArray, springs_of
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
-FASTEST = 1e15  #: v_0 over mu_0 kappa omega du_z, Eq. (1), beyond which rounding hides the slip velocity
+FASTEST = (
+    1e15  #: v_0 over mu_0 kappa omega du_z, Eq. (1), beyond which slip velocity and v_0 are the same but for rounding
+)
 BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
 MOST_ACCURATE, LEAST_ACCURATE = 1e-8, 1e-3  #: that can be asked for
-MOST_BESIDE = 512  #: most periods of a companion whose periodic state is not found from that of its run
+MOST_BESIDE = 512  #: most periods of a companion, or of a finer run, whose periodic state is not found
 MAX_PERIODS = {"rigid": 65536, "spring": 8192}  #: after which a run is called unsettled
 
 
@@ -53,10 +55,10 @@ class Resolution(NamedTuple):
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
     free: tuple[bool, bool] = (False, False)  #: whether springs and steps are doubled until the error is within it
     bounded: bool = True  #: whether companions, runs of fewer springs and steps, bound the error
-    alike: float = np.inf  #: gap [amplitudes] up to which springs in contact do the same, if known: `alike_to`
+    alike: float = np.inf  #: gap [amplitudes] at which the row of springs is cut, of `alike_to`; infinite: not cut
 
     def of_size(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
-        """The resolution of a companion with other steps or springs, that keeps nothing."""
+        """The resolution of a companion with these steps or springs, at least 16 of each; it keeps no record."""
         return self._replace(
             n_springs=max(n_springs or self.n_springs, 16), steps=max(steps or self.steps, 16), record=0
         )
@@ -64,10 +66,10 @@ class Resolution(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class MarchEnd:
-    """The end of a march, settled or not, before or after the close look at its last periods; in scaled form."""
+    """The end of a march, settled or not, before or after its last periods are looked at; state and COF are scaled."""
 
     case: SlidingContact
-    v_0: float
+    v_0: float  #: velocity of the pull [m/s]
     resolution: Resolution
     springs: SpringArray
     stepper: Stepper
@@ -75,7 +77,9 @@ class MarchEnd:
     n_periods: int  #: marched so far
     waited: Waiting | None  #: the march that led here; None where the periodic state was solved for
     awaits: bool  #: whether n_periods were asked for, so that periods that are looked at count for settling too
-    error: float | None = None  #: bound on that of the COF, over mu_0; None where no companion tells
+    error: float | None = (
+        None  #: bound on that of cof/mu_0, 0 in full slip or if unsettled; None where no companion was run
+    )
 
     @property
     def scaled(self) -> ScaledContact:
@@ -107,7 +111,7 @@ class MarchEnd:
     @property
     def hidden_error(self) -> float:
         """Error over mu_0 that no companion shows: of the load, or of the depth that was solved from it, of slow arms
-        that are taken for springs, and of stick at the edge of contact that neither sees.
+        that are taken for springs, and, on a face, of stick at the edge of contact that no run sees.
         """
         of_depth = max(self.case.cycle.missing, self.load_error)
         unseen = self.scaled.unseen(self.scaled.drive.pace(self.stepper.v)) if self.scaled.faces else 0.0
@@ -173,12 +177,12 @@ def steady(
 
 
 def alike_to(end: MarchEnd) -> float:
-    """Gap [amplitudes] up to which springs that keep contact do the same but for their gap, as a periodic state shows;
-    infinite where all do, or each for itself.
+    """Gap [amplitudes] beyond which springs that keep contact slip back, as a periodic state shows. Infinite: none
+    does, or the contact is of a kind that this is not worked out for; minus infinity: even the deepest spring does.
 
-    Under a body that swings back, springs slip back whose force comes to that of friction there. One that does not has
-    the force f = L[s] - D, with D >= 0 what it lacks to slip forward, the same for all of them, which differ by a
-    constant in L[s]. So one that is pressed less by the least of (f + L[s])/2 in a period just does not slip back.
+    Springs slip back under a body that swings back. One that does not slip back has the force f = L[s] - D, where
+    D >= 0 is what it lacks to slip forward. D is the same for all of these, and their L[s] differ by a constant. So
+    the last that does not slip back has a gap that exceeds that of the deepest by the least (f + L[s])/2 of a period.
     """
     scaled, stepper = end.scaled, end.stepper
     if scaled.body.rigid or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
@@ -193,7 +197,7 @@ def alike_to(end: MarchEnd) -> float:
 
 
 def check(case: SlidingContact, v_0: float) -> None:
-    """Refuse a velocity or an amplitude that is lost in the digits of a march."""
+    """Refuse an amplitude too small, and a shake or a velocity too large, for the digits of a march."""
     cycle = case.cycle
     if cycle.u_z0 > DEEPEST * cycle.unit:
         raise ValueError(
@@ -220,12 +224,12 @@ def _searched(stepper: Stepper, resolution: Resolution, near: MarchEnd | None) -
     scaled, orbit, from_full_slip = stepper.scaled, None, resolution.start == "full_slip"
     in_two_periods = scaled.body.rigid and not scaled.rheology.remembers and scaled.n_axes == 1
     if in_two_periods and from_full_slip and stepper.v > 0:
-        return _after_a_period(stepper)
+        return _after_two_periods(stepper)
     uncoupled = (
         (scaled.n_axes == 2 or scaled.rheology.rho) and scaled.body.rigid and scaled.body_across.rigid and stepper.v > 0
     )
     known = near is not None and near.settling.solved and not (from_full_slip and near.slips_fully)
-    if near is not None and known and stepper.v > 0:  # at rest a contact may stay wherever it begins
+    if near is not None and known and stepper.v > 0:  # with v_0 = 0 a contact may stay wherever it begins
         start, motions = at_other_resolution(near.orbit.state, near.orbit.motions, near.scaled, scaled)
         if uncoupled and (orbit := search_alone(stepper, start)) is not None:
             return orbit
@@ -241,11 +245,11 @@ def _searched(stepper: Stepper, resolution: Resolution, near: MarchEnd | None) -
     return orbit
 
 
-def _after_a_period(stepper: Stepper) -> Orbit:
+def _after_two_periods(stepper: Stepper) -> Orbit:
     """The periodic state of elastic springs under a rigid pull.
 
-    From full slip on the extension of a spring is never less than in its periodic state. Where that slips, as it does
-    in every period, it is at the limit of friction; so is the spring, and from then on both are one.
+    A spring that begins in full slip is extended by no less than in its periodic state. That state slips in each
+    period; there both are at the limit of friction, and one from then on. So the second period is the periodic one.
     """
     state = stepper.period(stepper.period(stepper.full_slip()))
     cof, _ = stepper.cof_of(stepper.last)

@@ -1,17 +1,18 @@
 """A run as accurate as is asked for: its companions, the bound on its error, more springs and steps until that is met.
 
 A step is exact but for the parabolas that motion and body take in it, and a sum over the nodes of Fejer's rule but for
-places where the order of modes changes. Both errors are of second order or better in the numbers of steps and springs,
-though they do not fall evenly, as events come at any place in a step. So four coarser runs, companions, go beside a
-run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both; (4) three eighths of both.
-Run less (1) tells the error of the steps, (1) less (2) that of the springs, which counts one and a half times; at
-second order each is three times the true error. The bound is their sum. Two runs may agree by chance, so that it is
-never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than 3/8 |(2) - (4)|, as errors fall at
-most eightfold where both numbers are doubled; nor, where friction turns, less than a tenth of what is asked for. Where
-the bound is more than is asked for, steps or springs are doubled, as these companions tell, until a run would be too
-dear. Before springs are doubled for the first time, the row is cut where the run shows that they begin to differ.
+places along the row where stick turns to slip. Both errors are of second order or better in the numbers of steps and
+springs, though they do not fall evenly, as events come at any place in a step. So four coarser runs, companions, go
+beside a run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both; (4) three eighths of
+both. Run minus (1) tells the error of the steps, (1) minus (2) that of the springs, which counts one and a half times;
+at second order each is three times the true error. The bound is their sum; on a face with a strength both count one and
+a half times more. Two runs may agree by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at
+second order, nor less than 3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in
+the plane, less than a tenth of what is asked for. Added is what no companion shows. Where all this is more than is
+asked for, steps or springs are doubled, as these companions tell, until a run would be too dear. Once, in the place of
+more springs, the row is cut where the run shows that they begin to slip back.
 
-Each run begins in the periodic state of one before it.
+Where a run has found its periodic state, the next one begins its search there.
 """
 
 from __future__ import annotations
@@ -42,19 +43,19 @@ from mdr.tools.progress import Ticker, time_is_over
 
 MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
-CUTS = 5  #: pieces of the row of springs at most, without kinks, of two springs at least (spring_grid.py)
+MOST_PIECES = 5  #: of the row of a shape without kinks, each of at least two springs (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
 MOST_CHOSEN = 2**22  #: springs times steps, of which a run takes seconds: errors of first order would go on for minutes
 UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an error was seen to fall by a fifth only
 BY_CHANCE = 3.0  #: times the difference to a run with three quarters of steps and springs: what the bound is at least
-AGREED = 0.1  #: of the accuracy asked for: where friction turns, runs that agree better do so by chance (with arms)
+AGREED = 0.1  #: of the accuracy: least bound in the plane, where runs were seen to agree by chance (with arms)
 MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled
 UNRESOLVED = 2.0  #: times the difference to a run whose steps resolve more, as that may miss as much again
 
 
 def default_springs(case: SlidingContact) -> int:
     """Springs with which a search for the accuracy begins: half of them still serve all pieces of a kinked shape."""
-    return max(N_SPRINGS * _harder(case)[0], 4 * (len(case.indenter.kinks) + CUTS))
+    return max(N_SPRINGS * _harder(case)[0], 4 * (len(case.indenter.kinks) + MOST_PIECES))
 
 
 def default_steps(case: SlidingContact) -> int:
@@ -83,7 +84,9 @@ def _harder(case: SlidingContact) -> tuple[int, int]:
 
 
 def oscillations(case: SlidingContact) -> float:
-    """Frequency over omega by which the third derivative of depth or shake exceeds the motion: a parabola misses it."""
+    """Frequency over omega that a parabola has to resolve: cube root of the third derivative of depth or shake over the
+    motion itself.
+    """
     motions = [
         np.abs(motion) for motion in (case.cycle.harmonics, case.shake_harmonics, case.harmonics_across) if motion.any()
     ]
@@ -192,13 +195,13 @@ def within(case: SlidingContact, v_0: float, resolution: Resolution, near: March
 
 
 def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
-    """The best run that is settled, or the first."""
-    best: MarchEnd | None = None
+    """The finest run that has settled; if none has, the first."""
+    finest: MarchEnd | None = None
     while True:
         rigid = runs.case.pull.is_rigid
-        main = runs.main(resolution, None if best is None or rigid else MOST_BESIDE)
+        main = runs.main(resolution, None if finest is None or rigid else MOST_BESIDE)
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
-            return best or replace(main, error=0.0)
+            return finest or replace(main, error=0.0)
         share = resolution.accuracy / 2
         may_be_clear = main.slips_fully and (main.load_error <= share or not any(resolution.free))
         if may_be_clear and (clear := _clear_of_stick(runs, main)) is not None:
@@ -207,8 +210,8 @@ def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
         error = missed.bound + _of_unresolved(runs, main)
         if time_is_over():
             why = "the time limit is over before the runs beside it, which bound cof_error, were done"
-            return best or replace(main.unsettled(why), error=0.0)
-        best = replace(main, error=error)
+            return finest or replace(main.unsettled(why), error=0.0)
+        finest = replace(main, error=error)
         met = error + main.settling.spread + main.hidden_error <= resolution.accuracy
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
@@ -217,7 +220,7 @@ def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
         if finer.n_springs > resolution.n_springs and may_be_cut and (alike := alike_to(main)) < np.inf:
             finer = resolution._replace(alike=alike)
         if finer == resolution:
-            return best
+            return finest
         resolution = finer
 
 
@@ -262,7 +265,7 @@ class Missed(NamedTuple):
 
     @property
     def bound(self) -> float:
-        """On the error."""
+        """Bound on the error of cof/mu_0."""
         return bound(self.steps, self.springs, others=self.by_chance)
 
 
@@ -282,10 +285,10 @@ def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
 
 
 def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
-    """Error of the steps, over mu_0, that companions have as well: the oscillation of a mass on the contact, where they
-    do not resolve but damp it, and how a body without mass is thrown as springs touch. It is found beside steps
-    that resolve the oscillation, as those that are chosen do, as far as that can be afforded; or beside four times as
-    many.
+    """Error of the steps, over mu_0, that companions have as well: of the oscillation of a mass on the contact, which
+    too few steps damp, or of how dashpots throw a body without mass (`_jolts`). It is found beside a run whose steps
+    resolve the oscillation, or that has four times the steps. Zero where the run has these itself, and, with a mass,
+    where they would be more than MOST_STEPS.
     """
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.body.light and main.scaled.body.M else 0
     if _jolts(runs.case):
@@ -300,10 +303,10 @@ def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
 def _clear_of_stick(runs: _Runs, main: MarchEnd) -> MarchEnd | None:
     """A run that slips, where no finer step would stick either: F_x is mu_0 F_z without error.
 
-    It and its companion of half the size must slip throughout, by more than a tenth of v_0 and ten times what doubling
-    the steps changed. And this change must be small beside v_0 less the slip velocity, which is v_c, so that it
-    converges: the velocity of a light body may jump by more with every finer step. That of one without mass and damper,
-    on dashpots, has no bound at all.
+    The least slip velocity (MarchEnd.least_slip), of it and of its companion of half the size, must be more than a
+    tenth, and than ten times their difference. And this difference must be small beside one less the slip velocity, so
+    that it converges: the velocity of a light body may jump by more with every finer step. That of one without mass and
+    damper, on dashpots, has no bound at all. None of a run that does not pass.
     """
     scaled = main.scaled
     if scaled.law.T and not scaled.body.rigid and not scaled.body.M and not scaled.body.C:
@@ -316,7 +319,9 @@ def _clear_of_stick(runs: _Runs, main: MarchEnd) -> MarchEnd | None:
 
 
 def _apart(main: MarchEnd, companion: MarchEnd) -> float:
-    """Difference of the COFs, over mu_0, and what the companion may be off its own steady state."""
+    """Difference of the COFs, over mu_0, and what the companion may be off its own steady state; zero where they
+    agree to rounding.
+    """
     apart = float(np.hypot(main.cof - companion.cof, main.settling.across - companion.settling.across))
     if apart <= FULL:
         return 0.0
