@@ -58,9 +58,13 @@ def nodes_of(t, modes, arms):
     """
     J, K, fastest, rule = 0, 0, 0.0, OF_CUBES
     if arms is not None:
-        J, fastest = arms.rate.size, arms.rate.max()
+        J = arms.rate.size
+        for j in range(J):  # numba takes half a second to compile the maximum of an array
+            fastest = max(fastest, arms.rate[j])
     if modes is not None:
-        K, fastest = modes.mu.size, max(fastest, modes.mu.max())
+        K = modes.mu.size
+        for k in range(K):
+            fastest = max(fastest, modes.mu[k])
         rule = OF_SLOW_DECAYS if fastest * t <= 0.5 else OF_DECAYS
     n, per = 1, rule.shape[0]
     while fastest * t * 0.5 ** (n - 1) > 0.5 and n < 60:
