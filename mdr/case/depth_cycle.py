@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.records import ArrayRecord
 
-DEEPEST = 1e9  #: mean depth over amplitude, and mean load over its own, beyond which the amplitude is lost in rounding
-
 
 def lost_in_digits(largest: Array | float, deepest: float) -> Array | float:
     """Error of friction over mu_0 that no method avoids: the rounding of the largest of the lengths whose differences

@@ -26,7 +26,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.depth_cycle import DEEPEST, Cycle
+from mdr.case.depth_cycle import Cycle
 from mdr.case.motion import LoadOscillation
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
@@ -155,16 +155,17 @@ def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillatio
     """The cycle of depth under an oscillating load.
 
     Raises ValueError where no periodic depth is found: beside a resonance of the mass on the contact, or where it
-    bounces in another rhythm; and where the amplitude is lost in the digits of the mean depth.
+    bounces in another rhythm.
     """
-    if motion.F_z0 > DEEPEST * motion.dF_z:
-        raise ValueError(
-            f"dF_z = {motion.dF_z:g} N is less than {1 / DEEPEST:g} of F_z0, and the amplitude of the depth is lost in "
-            "the rounding of its mean; raise it: critical velocities are proportional to it there"
-        )
-    if motion.m_z == 0 and not Rheology.periodic(material, motion.omega).remembers:
+    elastic = motion.m_z == 0 and not Rheology.periodic(material, motion.omega).remembers
+    if elastic and not _is_linear(motion):
         return _quasi_static(shape, material, motion)
     return _balanced(shape, material, motion)
+
+
+def _is_linear(motion: LoadOscillation) -> bool:
+    """Whether the law of a small amplitude misses less than the digits of a depth that is solved for."""
+    return bool(motion.dF_z <= np.sqrt(EPS) * motion.F_z0)
 
 
 def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
@@ -198,6 +199,8 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
     load[:2] = motion.F_z0, motion.dF_z / 2
     start = np.zeros(N_HARMONICS + 1, dtype=complex)
     start[:2] = d_0, motion.dF_z / 2 / impedance[1]
+    if _is_linear(motion):
+        return _cycle_of(start, omega)
 
     def missing(u: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Force balance that is missing, harmonics 0 ... N of exp(i n phase)."""

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.depth_cycle import DEEPEST
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.each_alone import search_alone
@@ -26,9 +25,9 @@ from mdr.normal.springs import SpringArray, springs_of
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
 
-FASTEST = (
-    1e15  #: v_0 over mu_0 kappa omega du_z, Eq. (1), beyond which slip velocity and v_0 are the same but for rounding
-)
+DEEPEST = 1e9  #: u_z0/du_z, beyond which the amplitude is lost in the rounding of an extension
+#: v_0 over mu_0 kappa omega du_z, Eq. (1), beyond which slip velocity and v_0 are the same but for rounding
+FASTEST = 1e15
 BUDGET = 1e-5  #: of cof/mu_0, bound on its error that a run is to meet
 MOST_ACCURATE, LEAST_ACCURATE = 1e-8, 1e-3  #: that can be asked for
 MOST_BESIDE = 512  #: most periods of a companion, or of a finer run, whose periodic state is not found
