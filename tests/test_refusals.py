@@ -476,6 +476,7 @@ SAYINGS = {
     'STUDY.select({"v_0/v_c": None})': "v_0/v_c has numbers for values, got None",
     'STUDY.select({"indenter": Cone(0.06)})': "no value Cone",
     'STUDY.select("v_0/v_c")': "values must map paths to values",
+    'sweep(SHAKEN, {"chi": [0.5], "shake.du_x": [1e-6]})': "chi and shake.du_x set the same",
     'TABLE.plot_map("v_c")': "a map needs two axes of numbers, the study has alpha",
     'TABLE.select({"T": 0.1}).plot_map("v_c", x="T")': "no axis of the study",
     'STUDY.select({"v_0/v_c": 0.5}).plot()': "no axis of numbers",

@@ -75,7 +75,7 @@ class ContactElement(Record):
         check_fields(self)
         instance("indenter", self.indenter, Indenter)
         instance("material", self.material, Material)
-        _ = self._mark  # its springs refuse what no contact can be
+        _ = self._row  # its springs refuse what no contact can be
 
     @property
     def n_state(self) -> int:

@@ -364,7 +364,7 @@ class Ends(NamedTuple):
 def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: Ends) -> tuple[HalfSpaceRun, Ends]:
     """A run that begins where another one at a near velocity ended, with two companions, and where they ended."""
     fine = last_period(case, v_0, settings, near.fine)
-    end, (least_of_cells, least_of_steps) = fine.steps[-1], _least(case, settings)
+    end, least = fine.steps[-1], _least(case, settings)
 
     def beside(coarser: Settings, start: Step | None, least: float) -> tuple[Companion, Step | None]:
         """What a coarser run tells of the error, and where it ended."""
@@ -375,14 +375,21 @@ def _with_errors(case: SlidingContact, v_0: float, settings: Settings, near: End
         apart = max(abs(one.cof - other.cof), abs(one.cof_y - other.cof_y))
         return Companion(apart, 2.0, least), found.steps[-1]
 
-    grid, wide = beside(replace(settings, cells=(settings.cells + 1) // 2), near.wide, least_of_cells)
+    grid, wide = beside(replace(settings, cells=(settings.cells + 1) // 2), near.wide, least.cells)
     begin = end if settings.settled else near.halved
-    step, halved = beside(replace(settings, steps=settings.steps // 2), begin, least_of_steps)
+    step, halved = beside(replace(settings, steps=settings.steps // 2), begin, least.steps)
     return _record(case, v_0, settings, fine, grid, step), Ends(end, halved, wide)
 
 
-def _least(case: SlidingContact, settings: Settings) -> tuple[float, float]:
-    """What the errors of cells and steps are not called smaller than [-].
+class Least(NamedTuple):
+    """What errors are not called smaller than [-]."""
+
+    cells: float
+    steps: float
+
+
+def _least(case: SlidingContact, settings: Settings) -> Least:
+    """The least errors of these cells and steps.
 
     Pressure rises from the edge of contact like a square root, so that a cell there carries (1/cells)^(3/2). An instant
     of stick that is off by a part of a step changes a force by as small a part, for no longer. A Kelvin material of
@@ -391,7 +398,7 @@ def _least(case: SlidingContact, settings: Settings) -> tuple[float, float]:
     lag = case.T / np.hypot(1.0, case.T)
     by_steps = 1.5 / settings.steps**2 + 0.7 * lag / settings.steps
     full = full_cof(case)
-    return 0.12 * full / settings.cells**1.5, by_steps * full
+    return Least(cells=0.12 * full / settings.cells**1.5, steps=by_steps * full)
 
 
 def _record(

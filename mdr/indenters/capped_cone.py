@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 from mdr.indenters.cone import FLANK
-from mdr.indenters.worn import Section, Worn, centre
+from mdr.indenters.worn import Section, Worn, radius_of
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,7 @@ class CappedCone(Worn):
     cos φ = b/a; F_N = (4/3) E* a³/R while a <= b.
     """
 
-    b: float = field(metadata=centre("cap", "Cone", 3e-4))
+    b: float = field(metadata=radius_of("cap", "Cone", 3e-4))
     theta: float = field(metadata=FLANK)
 
     @property

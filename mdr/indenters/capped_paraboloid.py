@@ -5,7 +5,7 @@ R1 → ∞ is the truncated paraboloid, R1 = R2 the paraboloid.
 
 from dataclasses import dataclass, field
 
-from mdr.indenters.worn import Section, Worn, centre
+from mdr.indenters.worn import Section, Worn, radius_of
 from mdr.tools.fields import facts
 
 
@@ -18,7 +18,7 @@ class CappedParaboloid(Worn):
 
     R1: float = field(metadata=facts("m", "radius of curvature of the cap", example=0.1))
     R2: float = field(metadata=facts("m", "radius of curvature around the cap", example=0.04))
-    b: float = field(metadata=centre("cap", "Paraboloid", 5e-4))
+    b: float = field(metadata=radius_of("cap", "Paraboloid", 5e-4))
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -9,7 +9,7 @@ import numpy as np
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.stable_functions import angle, sine_less_arc, sine_less_arc_and_cube
-from mdr.indenters.worn import centre
+from mdr.indenters.worn import radius_of
 from mdr.tools.arrays import Array
 from mdr.tools.fields import facts
 
@@ -21,7 +21,7 @@ class RoundedPunch(Indenter):
     cos φ = b/a. Under a small load it is a flat punch: a → b and k_zc → 2E*b.
     """
 
-    b: float = field(metadata=centre("face", "Paraboloid", 5e-4))
+    b: float = field(metadata=radius_of("face", "Paraboloid", 5e-4))
     R: float = field(metadata=facts("m", "radius of curvature of the edge", example=0.02))
 
     @property

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 from mdr.indenters.cone import FLANK
-from mdr.indenters.worn import Section, Worn, centre
+from mdr.indenters.worn import Section, Worn, radius_of
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class TruncatedCone(Worn):
     as one rounding away.
     """
 
-    b: float = field(metadata=centre("face", "Cone", 3e-4))
+    b: float = field(metadata=radius_of("face", "Cone", 3e-4))
     theta: float = field(metadata=FLANK)
 
     @property

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from mdr.indenters.worn import Section, Worn, centre
+from mdr.indenters.worn import Section, Worn, radius_of
 from mdr.tools.fields import facts
 
 
@@ -14,7 +14,7 @@ class TruncatedParaboloid(Worn):
     as one rounding away.
     """
 
-    b: float = field(metadata=centre("face", "Paraboloid", 5e-4))
+    b: float = field(metadata=radius_of("face", "Paraboloid", 5e-4))
     R: float = field(metadata=facts("m", "radius of curvature", example=0.04))
 
     @property

@@ -22,7 +22,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.fields import Facts, facts
 
 
-def centre(what: str, without: str, example: float) -> dict[str, Facts]:
+def radius_of(what: str, without: str, example: float) -> dict[str, Facts]:
     """Metadata of a radius b of a face or a cap, and the shape that has none."""
     meaning = f"radius of the {what}"
     return facts("m", meaning, note=f"{meaning} in m; a {without} has none", example=example)

@@ -60,7 +60,8 @@ class Helper:
         try:
             send(self.process.stdin, what)
             return pickle.load(self.process.stdout)
-        except (*CUT_OFF, OSError, MemoryError) as error:
+        except Exception as error:  # the pipe is cut off, or something printed stands where the answer is read
+            self.process.kill()
             raise Lost(f"a process that helped ended with status {self.process.wait()}") from error
 
     def close(self) -> None:

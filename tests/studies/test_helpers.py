@@ -96,6 +96,14 @@ def test_a_helper_that_is_killed_is_lost():
     helper.close()
 
 
+@pytest.mark.parametrize("printed", ["Intel MKL: one thread", "c", "5"])
+def test_a_helper_that_prints_before_it_answers_is_not_asked(printed, tmp_path, monkeypatch):
+    """What a file of the site prints stands where the answer is read, and no pickle is told from it for sure."""
+    (tmp_path / "sitecustomize.py").write_text(f"print({printed!r}, flush=True)\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    assert helper_for(grids.work(grids.RIGID, DEPTHS), threading.Event()) is None
+
+
 def test_what_a_lost_helper_was_to_compute_is_computed_here(at_once, monkeypatch, request):
     def lose(self, units):
         raise Lost("gone")

@@ -151,8 +151,7 @@ def why_not(shape: Any, x: Array, y: Array, unit: str) -> str:
     if x.size >= MANY and 0 < shape.smoothing < (1 - 7 / np.sqrt(x.size)) * noise_of(x, y):
         known = f"smoothing = {shape.smoothing:.6g} {unit} is less than the noise of the points"
         return f"{known}; without it the spline meets each"
-    why: str = shape._why_no_shape()
-    return why
+    return str(shape._why_no_shape())
 
 
 def told_smoothing(shape: Any, x: Array, y: Array, unit: str) -> str:
