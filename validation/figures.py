@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any
 
-from mdr.plots import COLOURS as COLOURS
+from mdr.plots import COLOURS as COLOURS  # the claims take it from here
 from mdr.plots import style
 from validation.cases import LOOKS, shape_label
 from validation.report import Figure

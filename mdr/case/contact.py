@@ -339,8 +339,9 @@ class SlidingContact(Record, Summarised):
         return self.mu_0 * self.material.mindlin_ratio * self.cycle.unit + self._strength(self.u_z_max)
 
     def _strength(self, depth: float) -> float:
-        """2 tau_0 a/G* [m]: deflection of the spring in the middle that a shear strength holds, zero without one; a at
-        this depth, of no less than zero.
+        """2 tau_0 a/G* [m]: deflection of the spring in the middle that a shear strength holds; zero without one.
+
+        a is the contact radius at the depth, or at zero if that is above the surface.
         """
         a = float(self.indenter.contact_radius(max(depth, 0.0))) if self.tau_0 else 0.0
         return 2 * self.tau_0 * a / self.material.G_star

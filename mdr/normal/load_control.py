@@ -2,7 +2,8 @@
 
 F_N follows from the history of depth by the contact law, viscoelastic and unilateral (followed_force.py); friction has
 no part in it. Without mass an elastic contact is at each instant at the depth that carries the load, and this is solved
-exactly. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
+exactly. A very small amplitude is taken from the linear law below: of the difference of two solved depths too much is
+rounding. Else the depth is sought as a Fourier series. What is missing of the balance of forces, harmonic by harmonic
 divided by the dynamic stiffness of the contact at its mean depth less m_z (n omega)², is the correction, and Anderson's
 method (1965) combines the last of them. Where contact is lost, F_N jumps as dashpots touch, between two instants; its
 harmonics are then taken from the compression of all springs, which has no jumps, times the dynamic modulus: that holds
@@ -164,7 +165,7 @@ def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillatio
 
 
 def _is_linear(motion: LoadOscillation) -> bool:
-    """Whether the law of a small amplitude misses less than the digits of a depth that is solved for."""
+    """Whether the amplitude is so small that its linear law misses less of it than the rounding of a solved depth."""
     return bool(motion.dF_z <= np.sqrt(EPS) * motion.F_z0)
 
 

@@ -172,14 +172,14 @@ def within(f, R):
 
 
 @_inline
-def friction_on_face(face, springs, rub, s, e, i, on, T, modes, arms, tools, look):
+def friction_on_face(face, springs, rub, s, e, i, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, by `rub`. On a face with a strength, s and its motion are first
     raised so that their force is the limit (face.py); after `rub`, s is what the stretch makes of it without that.
     """
     w = springs.w[i]
     if face is None:
-        return rub(s, e, i, w, on, T, modes, arms, tools, look)
-    z, x, t, k, begun, tol, rate_miss = on
+        return rub(s, e, i, w, pressing, T, modes, arms, tools, look)
+    z, x, t, k, begun, tol, rate_miss = pressing
     kept, x2 = tools.room.kept, springs.x2[i]
     for j in range(s.shape[0]):
         kept[j, 0] = s[j, i]
@@ -258,8 +258,8 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
                     normal_moment += w[i] * (done * A + B)
                 else:
                     x = path.x_1 + 2.0 * path.x_2 * done, path.x_2
-                    on = Pressing((z_1, path.z_2), x, t, k, done, tol, rate_miss)
-                    of = friction_on_face(path.face, springs, rub, s, e, i, on, T, modes, arms, tools, look)
+                    pressing = Pressing((z_1, path.z_2), x, t, k, done, tol, rate_miss)
+                    of = friction_on_face(path.face, springs, rub, s, e, i, pressing, T, modes, arms, tools, look)
                     mode, n, vel = of.mode, of.n, of.vel
                     area, moment = area + w[i] * of.area, moment + w[i] * of.moment
                     stuck, stuck_moment = stuck + w[i] * of.stuck, stuck_moment + w[i] * of.stuck_moment

@@ -396,9 +396,9 @@ def start_of(e, i, top, R, h, G, T, arms):
 
 
 @_inline
-def rub_disc(s, e, i, w, on, T, modes, arms, tools, look):
+def rub_disc(s, e, i, w, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, as rub_line of line.py."""
-    z, x, t, k, begun, tol, _ = on
+    z, x, t, k, begun, tol, _ = pressing
     h, G, R = tools.times.h, glassy(arms), cubic(held_force(s, i, z[0], z[1], t, k, T, tools, arms), t)
     if look is not None:
         of_pressing(look.sums, w, s, i, z[0], z[1], t, h, look.nodes, T, modes, arms)

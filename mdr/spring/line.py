@@ -48,9 +48,9 @@ def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
 
 
 @_inline
-def rub_line(s, e, i, w, on, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact, `on`; s and e are updated. look: None or Look."""
-    z, x, t, k, begun, tol, rate_miss = on
+def rub_line(s, e, i, w, pressing, T, modes, arms, tools, look):
+    """Friction of spring i over a stretch of contact, `pressing`; s and e are updated. look: None or Look."""
+    z, x, t, k, begun, tol, rate_miss = pressing
     h, gone, mode = tools.times.h, 0.0, BEGINS
     area = moment = stuck = stuck_moment = pressed = pressed_moment = 0.0
     for _ in range(MOST_EVENTS):

@@ -214,9 +214,9 @@ def kernel_of(kind: Kind) -> Kernel:
         body, side = body_at(block, ALONG), if_there(body_at(block, ACROSS), in_plane)
         tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0], gap.size)
         springs = Springs(gap, w, if_there(x2, has_face))
-        slip, flown = if_there(FullSlipForce(area, moment, end), has_slip), if_there(flight, has_flight)
-        steps = trace_of(trace, n_steps, in_plane)
-        return march(e, s, state[s.size :], body, side, springs, slip, flown, motion, law, tools, n_steps, steps)
+        slip, in_flight = if_there(FullSlipForce(area, moment, end), has_slip), if_there(flight, has_flight)
+        traced = trace_of(trace, n_steps, in_plane)
+        return march(e, s, state[s.size :], body, side, springs, slip, in_flight, motion, law, tools, n_steps, traced)
 
     # the name of its files in the cache, in which all kernels would have one
     kernel.__qualname__ = "kernel_" + "".join("0" if one is None else "1" for one in kind)

@@ -76,9 +76,8 @@ class MarchEnd:
     n_periods: int  #: marched so far
     waited: Waiting | None  #: the march that led here; None where the periodic state was solved for
     awaits: bool  #: whether n_periods were asked for, so that periods that are looked at count for settling too
-    error: float | None = (
-        None  #: bound on that of cof/mu_0, 0 in full slip or if unsettled; None where no companion was run
-    )
+    #: bound on that of cof/mu_0, 0 in full slip or if unsettled; None where no companion was run
+    error: float | None = None
 
     @property
     def scaled(self) -> ScaledContact:
