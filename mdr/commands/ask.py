@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import suppress
+from itertools import zip_longest
 
 import mdr
 from mdr.case.paths import facts_at
@@ -11,6 +13,7 @@ from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.find import OF_RUN, searched_path
 from mdr.given.case_file import Said
+from mdr.march.result.run import power_text
 from mdr.tools.notation import value_in
 
 
@@ -39,8 +42,21 @@ def find(args: argparse.Namespace, asked: Said) -> int:
         within = args.within and tuple(_end(end, path, asked.case) for end in args.within)
         found = mdr.find(asked.case, path, **wish, share=args.share, within=within, held=asked.held)
     unit = facts_at(path).unit
-    answer(args, {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit}, str(found), asked.case)
+    pairs = zip(found.values, found.cases, strict=True)
+    spent = [] if args.v_c else [_power(case, wish.get("v_0", value)) for value, case in pairs]
+    values = {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit, "power": spent}
+    told = ["" if one is None else ", power {}: {}".format(*power_text(one)) for one in spent]
+    lines = zip_longest(str(found).splitlines(), told, fillvalue="")
+    answer(args, values, "\n".join(map("".join, lines)), asked.case)
     return Exit.DONE if found.values else Exit.FAILED
+
+
+def _power(case: mdr.SlidingContact, v_0: float) -> dict[str, float] | None:
+    """What it takes [W], by a run; None where that does not settle, or friction is a limit as v_0 -> 0."""
+    with suppress(ValueError):
+        run = mdr.slide(case, v_0)
+        return run.power if run.settled else None
+    return None
 
 
 def _end(text: str, path: str, case: mdr.SlidingContact) -> float:

@@ -51,7 +51,7 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
     values = picked(
         found, "v_0", "mu_0", "full_cof", "cof", "share", "cof_y", "cof_error", "settled", "kind", "why", "stick_share",
-        "least_slip", "mean_F_x", "mean_F_y", "mean_F_z", "n_springs", "steps_per_period", "n_periods",
+        "least_slip", "mean_F_x", "mean_F_y", "mean_F_z", "power", "n_springs", "steps_per_period", "n_periods",
     )  # fmt: skip
     balance = {**asdict(spent), "residual": spent.residual}
     status = _end(args, found, {"v_c": v_c, **values, "energy_balance": balance}, text, case)

@@ -36,7 +36,11 @@ def test_find(capsys, sled):
     answer = json_of(capsys, ["find", sled, "du_z", *wish, "--json"])
     assert (answer["path"], answer["unit"]) == ("oscillation.du_z", "m")
     said = read_said(sled)
-    assert answer["values"] == list(mdr.find(said.case, "du_z", v_0=0.01, cof=0.15, within=(1e-7, 5e-6)).values)
+    found = mdr.find(said.case, "du_z", v_0=0.01, cof=0.15, within=(1e-7, 5e-6))
+    assert answer["values"] == list(found.values)
+    assert answer["power"] == [mdr.slide(one, 0.01).power for one in found.cases]
+    assert "W from the normal drive, " in words_of(capsys, ["find", sled, "du_z", *wish]).out
+    assert json_of(capsys, ["find", sled, "frequency", "--v-c", "10 mm/s", "--json"])["power"] == []
     assert words_of(capsys, ["find", sled, "frequency", "--v-c", "10 mm/s"]).out.startswith("frequency = 3.97887 kHz")
     assert words_of(capsys, ["find", sled, "v_0", "--share", "90%"]).out.startswith("v_0 = ")
     assert "none: v_c is 50.265 mm/s" in words_of(capsys, ["find", sled, "E", "--v-c", "10 mm/s"], 1).out

@@ -73,6 +73,34 @@ def test_a_pulling_point_shakes_by_what_spring_and_damper_pass_on():
 # --- accuracy, energy, the ends ---
 
 
+def test_the_power_of_an_ultrasonic_shake_is_that_of_springs_that_stick_and_slip():
+    """Steel on steel at 20 kHz, elastic springs dragged in small steps; the pull gives v_0 times the mean force."""
+    omega, v_0, mu_0, amplitude = 2 * np.pi * 20e3, 0.1, 0.3, 5e-6
+    steel = mdr.ElasticPair(E_1=210e9, nu_1=0.3, E_2=210e9, nu_2=0.3)
+    shake = mdr.InPlaneOscillation(omega, du_x=amplitude)
+    case = mdr.SlidingContact(mdr.Paraboloid(R=10e-3), steel, mu_0, mdr.ConstantLoad(F_z0=50.0), shake=shake)
+    depth = (3 * 50.0 / (4 * steel.E_star * np.sqrt(10e-3))) ** (2 / 3)  # Hertz
+    a, n, steps = np.sqrt(10e-3 * depth), 400, 4000
+    x = (np.arange(n) + 0.5) / n * a
+    limit = mu_0 * steel.E_star * 2 * a / n * (depth - x**2 / 10e-3)
+    t = np.linspace(0, 4 * np.pi / omega, 2 * steps + 1)
+    e, lost = np.zeros(n), np.zeros(2 * steps)
+    stiff = steel.G_star * 2 * a / n
+    for i, step in enumerate(np.diff(v_0 * t + amplitude * np.cos(omega * t))):
+        stuck = e + step
+        e = np.clip(stuck, -limit / stiff, limit / stiff)
+        lost[i] = np.sum(limit * np.abs(stuck - e))
+    run = mdr.slide(case, v_0)
+    hand = 20e3 * lost[steps:].sum()  # of the second period
+    assert hand == pytest.approx(5.31, rel=1e-3)
+    assert run.power["lost"] == pytest.approx(hand, rel=1e-3)  # steps of a thousandth of the swing
+    assert run.power["pull"] == pytest.approx(v_0 * run.mean_F_x, rel=1e-9)
+    assert run.power["pull"] + run.power["shake"] == pytest.approx(run.power["lost"], rel=1e-9)
+    assert run.power["normal"] == 0.0
+    assert "W from the shake, 0.15984 W from the pull" in str(run)
+    assert "normal drive" not in str(run)
+
+
 def test_a_pulling_point_shaken_on_an_undamped_resonance_sticks_at_any_velocity():
     case = contact(at="pull", pull=mdr.SpringPull(k_x=0.05 * OMEGA**2, m=0.05))
     assert math.isinf(mdr.critical_velocity(case))

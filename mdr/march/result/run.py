@@ -6,6 +6,7 @@ Sign and symbols: F_x > 0 holds back an indenter that is pulled forward [N], F_z
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -92,6 +93,17 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
         return self.cof / self.full_cof
 
     @property
+    def power(self) -> dict[str, float]:
+        """Mean power [W] of one of the last periods: from "pull", "shake" and "normal" drive, and "lost" as heat.
+
+        What is within the residual of the balance is 0. Below 0 a drive takes power up: a pull that is driven.
+        """
+        spent = self.energy_balance
+        works = np.array([spent.pull_work, spent.shake_work, spent.normal_work, spent.lost])
+        watts = self.omega / (2 * np.pi) * beyond(abs(spent.residual) + EXACT * np.abs(works).max(), works)
+        return dict(zip(("pull", "shake", "normal", "lost"), watts.tolist(), strict=True))
+
+    @property
     def mirrored(self) -> SlidingRun:
         """The run seen from the other side, which goes the other way."""
         turned = {name: _turned(getattr(self, name)) for name in ("v_0", "cof", "mean_F_x", "u_x", "F_x", "e", "f_x")}
@@ -115,6 +127,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
             ("mean F_x", number(self.mean_F_x, "N"), "tangential force, which holds the indenter back"),
             ("mean F_z", number(self.mean_F_z, "N"), "normal force"),
             ("energy", f"{spent.residual:.1e} J", missing),
+            ("power", *power_text(self.power)),
             ("march", size, ""),
             ("record", kept, ""),
         ]
@@ -179,6 +192,13 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
         from mdr.plots.animation import animate_springs
 
         return animate_springs(self, path, frames, title)
+
+
+def power_text(power: Mapping[str, float]) -> tuple[str, str]:
+    """The power [W] that is lost, and which drives it comes from; those that give none are left out."""
+    drives = {"shake": "the shake", "normal": "the normal drive", "pull": "the pull"}
+    told = ", ".join(f"{number(power[one], 'W')} from {its}" for one, its in drives.items() if power[one])
+    return number(power["lost"], "W"), told
 
 
 def _turned(values: Any) -> Any:
