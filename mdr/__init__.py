@@ -15,6 +15,7 @@ from mdr.case.in_plane import *
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.case.spectrum import Spectrum
 from mdr.case.contact import SlidingContact
+from mdr.tools.keywords import NoSuch
 from mdr.tools.warned import PlausibilityWarning
 
 from mdr.files.case_files import write_case
@@ -119,7 +120,7 @@ if not TYPE_CHECKING:  # what is not there, a checker of types says
                 module = import_module(home)
                 globals()[name] = found = getattr(module, name, module)  # or the module itself
                 return found
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        raise NoSuch(__name__, name, __dir__)
 
 
 def __dir__() -> list[str]:

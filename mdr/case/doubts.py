@@ -33,6 +33,9 @@ RUBBERY = 1e8  #: modulus [Pa] up to which a solid may bear more than its hardne
 STRONGEST = 0.3  #: shear strength over the modulus, above that of any face
 LEAST_MU_0 = 1e-3  #: a joint, and ice that melts, are above it
 MOST_G = 1e6  #: acceleration over that of gravity; an ultrasonic horn reaches some 1e5
+METALLIC = 1e10  #: modulus [Pa], from that of bone and wood on, of solids on which asperities do not flatten
+ROUGHNESS, ASPERITY = 5e-7, 1e-5  #: of ground steel: heights, 0.2 to 1 µm, and width of a contact that has many [m]
+ULTRASONIC = 2 * np.pi * 16e3  #: rad/s
 LEAST = 5e-4  #: amplitude over mean depth, chi and omega tau that have next to no effect
 HEAVIEST = 1e4  #: weight of the body over the mean load
 MOST_DAMPED = 10.0  #: damping ratio c_x/(2 sqrt(k_x m)) of the body
@@ -43,6 +46,7 @@ def doubts_of(known: SlidingContact) -> tuple[str, ...]:
     return tuple(_of_sizes(known)) or (
         *(_of_shape(known) if known.indenter.is_body else ()), *_of_motion(known), *_of_material(known),
         *(_of_waves(known) if known.indenter.is_body else ()), *_of_pull(known),
+        *(_of_roughness(known) if known.indenter.is_body else ()),
     )  # fmt: skip
 
 
@@ -141,7 +145,8 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
     if is_given and known.working_depth > 0 and known.alpha > 5.0:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
-            f"u_z0 = {known.cycle.u_z0:.4g} m), so that the contact is open most of the time: are the two swapped?"
+            f"u_z0 = {known.cycle.u_z0:.4g} m), so that the indenter hammers and is in the air most of the time; if that "
+            "is not meant, du_z and u_z0 may be swapped"
         )
     if is_given and known.oscillation.omega and 0 < known.alpha < LEAST:
         yield (
@@ -200,6 +205,27 @@ def _of_waves(known: SlidingContact) -> Iterator[str]:
         yield (
             f"shear waves in the half-space are at most {longest:.3g} m long at this frequency, and the contact is "
             f"{width:.3g} m wide: springs leave waves out; is the frequency, the modulus or a length in another unit?"
+        )
+
+
+def _of_roughness(known: SlidingContact) -> Iterator[str]:
+    """Asperities of hard faces, where the depth, or an ultrasonic amplitude at little depth, is below their height."""
+    depth = known.contact_depth
+    wide = edge(known.indenter, depth)[0] > ASPERITY
+    if known.material.E_star < METALLIC or not wide or depth > 10 * ROUGHNESS:  # a tenth of the depth is not felt
+        return
+    lengths = {f"depth, {depth:.3g} m,": depth}
+    given = [one for one in _moving(known) if one[0] != "the depth" or known.oscillation.load is None]
+    for name, omega, harmonics in given:
+        size = float(np.sum(np.abs(harmonics)))
+        if omega >= ULTRASONIC and size > 0:
+            lengths[f"amplitude of {name}, {size:.3g} m at {omega / (2 * np.pi):.4g} Hz,"] = size
+    least = min(lengths, key=lengths.__getitem__)
+    if lengths[least] < ROUGHNESS:
+        yield (
+            f"the {least} is below the roughness of ground steel, some {ROUGHNESS:g} m: asperities make such a contact "
+            "softer than a smooth one; unless the faces are polished take a rough face, RoughFace, or FromForce of a "
+            "measured force over depth"
         )
 
 

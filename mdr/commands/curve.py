@@ -11,8 +11,8 @@ import numpy as np
 import mdr
 from mdr.closed_forms.critical_velocity import POINTS, UP_TO, velocity_scale
 from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, no_scale, velocity, whole_number
-from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of, velocity_text
-from mdr.commands.velocity import ends_of, equation_of
+from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of
+from mdr.commands.velocity import ends_of, v_c_text
 from mdr.commands.written import add_output, make_folder, write_found
 
 
@@ -39,7 +39,8 @@ def curve(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     back = ["v_c_back"] if case.is_shaken else []
     values = picked(found, "v_c", "mu_0", "static_cof", *back) | values_of(ends)
     values |= picked(found, "v_0", "cof", "cof_y", "cof_error", "settled", "stick_share", "why")
-    text = "\n".join([*_lines(found, equation_of(case)[0]), *([text_of(ends)] if ends else [])])
+    head = v_c_text(case, found.v_c, found.v_c_back)
+    text = "\n".join([*_lines(found, head), *([text_of(ends)] if ends else [])])
     answer(args, values, text, case)
     write_found(args, found.plot, found.table(), "", mdr.write_case(case))
     loose = [why for why, settled in zip(found.why, found.settled, strict=True) if not settled]
@@ -75,13 +76,10 @@ def _v_c_or_scale(case: mdr.SlidingContact) -> float:
     return velocity_scale(case) if no_scale(v_c) else v_c
 
 
-def _lines(curve: mdr.CofCurve, equation: str) -> Iterator[str]:
-    """The curve as a table."""
-    back = "" if curve.v_c_back is None else f" forward and {velocity_text(curve.v_c_back)} the other way"
-    back = " either way" if curve.v_c_back == curve.v_c else back
+def _lines(curve: mdr.CofCurve, head: str) -> Iterator[str]:
+    """The curve as a table, below what its head says of v_c."""
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
-    known = f"mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
-    yield f"v_c = {velocity_text(curve.v_c)}{back} by {equation}, {known}"
+    yield f"{head}, mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
     cof_y = [""] * curve.v_0.size if curve.cof_y is None else [f"{round(one, 6) + 0.0:17.6f}" for one in curve.cof_y]
     across = "" if curve.cof_y is None else "  COF across"
     over = "COF/mu_0" if curve.full_cof == curve.mu_0 else "share"

@@ -12,8 +12,8 @@ from mdr.commands.output import Exit, WrongInput, answer
 from mdr.files.examples import example
 
 INSTALL = (
-    "mdr explore needs Panel and Bokeh, which are not installed ({missing}); in a checkout of the repository: "
-    ".venv/bin/pip install -e '.[explore]'"
+    "mdr explore needs Panel and Bokeh, which are not installed ({missing}): "
+    "pip install panel bokeh"
 )
 
 

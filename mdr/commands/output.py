@@ -87,24 +87,29 @@ WAYS = {
     "full_slip_critical_velocity(case)": "the row full slip of `mdr velocity`",
     "too great for critical_velocity(case)": "too great for the closed form",
     'give hold="load"': 'give hold = "load" in [oscillation]',
+    "`within` may be widened": "--within low high searches another range",
     "holding_band(case), or cof_curve(case, [0])": "`mdr velocity`, or `mdr curve case.toml --v-0 0`",
 }
 
 
-def complain(message: str, status: int = Exit.FAILED) -> int:
-    """A message on standard error, each line behind the program's name; returns the status."""
+def in_shell(message: str) -> str:
+    """A message whose ways out are those of the command line."""
     for python, shell in WAYS.items():
         message = message.replace(python, shell)
+    return message
+
+
+def complain(message: str, status: int = Exit.FAILED) -> int:
+    """A message on standard error, each line behind the program's name; returns the status."""
+    message = in_shell(message)
     for line in message.splitlines() or [""]:
         print(line if line.startswith(" ") else f"mdr: {line}", file=sys.stderr)
     return status
 
 
 def velocity_text(v: float | None) -> str:
-    """A critical velocity in words."""
-    if v is None:
-        return "none"
-    return "infinite, friction is full at no velocity" if math.isinf(v) else f"{v:.6g} m/s"
+    """A critical velocity as a value."""
+    return "none" if v is None else "infinite" if math.isinf(v) else f"{v:.6g} m/s"
 
 
 def _plain(value: Any) -> Any:

@@ -11,8 +11,8 @@ from typing import Any
 
 import mdr
 from mdr.commands.arguments import add_accuracy, add_velocity, whole_number
-from mdr.commands.output import Exit, WrongInput, answer, complain, picked, velocity_text
-from mdr.commands.velocity import equation_of
+from mdr.commands.output import Exit, WrongInput, answer, complain, picked
+from mdr.commands.velocity import v_c_text
 from mdr.commands.written import add_output, made_by, make_folder, require_free, write_found, writing
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.half_space.friction import Settings
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
     found = mdr.slide(case, v_0, record=1, **knobs)
     v_c, spent = mdr.critical_velocity(case, -1 if v_0 < 0 else 1), found.energy_balance
-    text = f"v_c = {velocity_text(v_c)} by {equation_of(case)[0]}, mu_0 = {case.mu_0:.6g}\n{found}"
+    text = f"{v_c_text(case, v_c)}, mu_0 = {case.mu_0:.6g}\n{found}"
     values = picked(
         found, "v_0", "mu_0", "full_cof", "cof", "share", "cof_y", "cof_error", "settled", "kind", "why", "stick_share",
         "least_slip", "mean_F_x", "mean_F_y", "mean_F_z", "power", "n_springs", "steps_per_period", "n_periods",

@@ -23,6 +23,7 @@ from mdr.tools.summary import number
 if TYPE_CHECKING:
     from mdr.friction.shaken import HoldingBand
 
+FULL = "friction is full at no velocity"  #: where a critical velocity is infinite
 HARMONICS = "all harmonics of the force"  #: that a velocity of full slip counts
 
 
@@ -64,8 +65,9 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         if case.is_shaken:
             told.append(told_velocity(f"{key}_back", solve(case, -1), "other way", "the same, pulled the other way"))
     if not (case.is_shaken or case.pull.is_rigid):
-        rigid = mdr.critical_velocity(replace(case, pull=mdr.RigidPull()))
-        told.append(told_velocity("v_c_rigid", rigid, "rigid", "the same contact pulled rigidly, Eq. (1)"))
+        rigid = replace(case, pull=mdr.RigidPull())
+        meaning = f"the same contact pulled rigidly, {formula_of(rigid)}"
+        told.append(told_velocity("v_c_rigid", mdr.critical_velocity(rigid), "rigid", meaning))
     if not case.is_shaken:
         known = mdr.resolved(case)
         full = f"; in full slip {full_cof(known):.6g}" if case.tau_0 else ""
@@ -97,7 +99,16 @@ def _across(case: mdr.SlidingContact) -> list[Told]:
 
 def told_velocity(key: str, v: float | None, name: str, meaning: str) -> Told:
     """A critical velocity [m/s]."""
-    return Told(key, v, name, velocity_text(v), meaning)
+    return Told(key, v, name, velocity_text(v), f"{meaning}; {FULL}" if v == math.inf else meaning)
+
+
+def v_c_text(case: mdr.SlidingContact, v_c: float, back: float | None = None) -> str:
+    """The critical velocity, and that of the pull the other way where there is one, for the head of a text."""
+    told = velocity_text(v_c)
+    if back is not None:
+        told += " either way" if back == v_c else f" forward and {velocity_text(back)} the other way"
+    equals, full = ("is", f": {FULL}") if v_c == math.inf else ("=", "")
+    return f"v_c {equals} {told} by {equation_of(case)[0]}{full}"
 
 
 def told_number(key: str, value: float, name: str, unit: str, meaning: str) -> Told:

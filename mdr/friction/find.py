@@ -303,6 +303,6 @@ class _Search:
         )
         between = f"is {least}" if self.is_flat else f"lies between {least} and {most}"
         limit = ", unless this is the limit as v_0 -> 0" if path == "v_0" else ""
-        gaps = "" if self.is_flat else f"; `within` may be widened{limit}"
+        gaps = f"; `within` may be widened{limit}"
         gaps += f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
         return f"none: {wish.what} {between} for {path} {where}, and {shown(wish.wanted, wish.unit)} is asked for{gaps}"

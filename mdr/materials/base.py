@@ -27,8 +27,10 @@ from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, plain
 from mdr.tools.fields import Record, facts
 from mdr.tools.secular import secular_zeros
+from mdr.tools.warned import warn_outside
 
 Arms = tuple[tuple[float, float], ...]  #: Maxwell arms, each a modulus [Pa] and a relaxation time [s]
+LEAST_POISSON = 0.01  #: above 0, of a solid; of those that people use cork, at 0, is the least
 
 
 def poisson_ratio_of(mindlin_ratio: float) -> float:
@@ -42,6 +44,8 @@ def poisson_ratio(name: str, value: Any, note: str = "") -> float:
     if not -1 < nu <= 0.5:
         what = f"{name} must lie in -1 < nu <= 0.5 for a stable isotropic body, got {nu!r}; rubber is 0.5"
         raise ValueError(what)
+    if 0 < nu < LEAST_POISSON:
+        warn_outside(f"{name} = {nu:.4g} is Poisson's ratio of no solid, cork included: is it {name}, or a time in s?")
     return nu
 
 

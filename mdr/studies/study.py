@@ -188,7 +188,7 @@ class Study(Printed, Tabled, DrawnStudy, ArrayRecord, Frame):
         try:
             import xarray
         except ImportError:
-            raise ImportError("to_xarray needs xarray: .venv/bin/pip install -e '.[xarray]'") from None
+            raise ImportError("to_xarray needs xarray: pip install xarray") from None
         return xarray.load_dataset(BytesIO(packed(self)), engine="scipy")
 
     def __repr__(self) -> str:

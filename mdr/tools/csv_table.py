@@ -68,8 +68,7 @@ class Tabled:
         try:
             import pandas
         except ImportError:
-            way_out = "python3 -m pip --python .venv install -e '.[xarray]'"
-            raise ImportError(f"to_dataframe needs pandas, which comes with xarray: {way_out}") from None
+            raise ImportError("to_dataframe needs pandas: pip install pandas") from None
         return pandas.read_csv(StringIO(self.table()), keep_default_na=False, na_values=["nan"], engine="python")
 
 

@@ -13,6 +13,7 @@ from inspect import signature
 from typing import Any, NamedTuple, Self, TypeVar
 
 from mdr.tools.checks import positive
+from mdr.tools.keywords import Offering
 from mdr.tools.messages import offer
 
 T = TypeVar("T")
@@ -96,7 +97,7 @@ def check_fields(record: Any) -> None:
         object.__setattr__(record, field.name, checked(field, getattr(record, field.name)))
 
 
-class Record:
+class Record(Offering):
     """Base of frozen dataclasses whose fields have facts; one with relations between fields adds them after these."""
 
     def __new__(cls, *args: Any, **given: Any) -> Self:

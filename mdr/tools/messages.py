@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from operator import eq
 
 #: names in other words
 OTHER_WORDS = {
     "ball": "Sphere", "parabola": "Paraboloid", "punch": "FlatPunch", "cylinder": "FlatPunch", "disc": "FlatPunch",
     "disk": "FlatPunch", "rubber": "KelvinVoigt", "kelvin": "KelvinVoigt", "zener": "StandardLinearSolid", "sine":
-    "NormalOscillation", "rigid": "RigidPull", "spring": "SpringPull",
+    "NormalOscillation", "rigid": "RigidPull", "spring": "SpringPull", "radius": "R",
 }  # fmt: skip
 _NUMBERS = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", re.IGNORECASE)
 MOST_TOLD = 4  #: differences or reasons that one message tells before it counts the rest
@@ -25,16 +26,17 @@ def nearest(word: str, known: Sequence[str]) -> str | None:
     """The known name that the word stands for, that is spelt most like it, or that alone begins with it."""
     from difflib import SequenceMatcher, get_close_matches
 
-    folded = {one.casefold(): one for one in known}
-    word = word.casefold()[:99]
+    folded: dict[str, list[str]] = {}
+    for one in known:
+        folded.setdefault(one.casefold(), []).append(one)
+    given, word = word, word.casefold()[:99]
     if OTHER_WORDS.get(word) in known:
         return OTHER_WORDS[word]
-    begun = [one for one in folded if word and one.startswith(word)]
-    if len(begun) == 1:
-        return folded[begun[0]]
-    close = [one for one in folded if one in get_close_matches(word, folded, n=3)]
-    found = max(close, key=lambda one: SequenceMatcher(None, one, word).ratio(), default="")  # of equals the first
-    return folded[found] if found else None
+    close = [one for one in folded if word and one.startswith(word)]
+    if len(close) != 1:
+        close = [one for one in folded if one in get_close_matches(word, folded, n=3)]
+    found = max(close, key=lambda one: SequenceMatcher(None, one, word).ratio(), default=None)  # of equals the first
+    return max(folded[found], key=lambda one: sum(map(eq, one, given))) if found else None  # F_x is not f_x
 
 
 def short(text: str, longest: int = 60) -> str:

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from html import escape
+from textwrap import wrap
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from mdr.tools.keywords import Offering
+
+NAME = 10  #: of a column of names, the usual width
+LONGEST = 118  #: of a line of a table, which a title indents by two
 Row = tuple[str, str, str]  #: name, value, meaning
 LEFT = 'style="text-align: left"'  #: notebooks set cells to the right
 
@@ -35,7 +40,7 @@ def _cells(row: Row) -> Iterator[str]:
     yield f"<td {LEFT}>{value}</td><td {LEFT}>{meaning}</td>" if meaning else f'<td colspan="2" {LEFT}>{value}</td>'
 
 
-class Printed:
+class Printed(Offering):
     """Base of records that notebooks show as they print."""
 
     def _repr_html_(self) -> str:
@@ -56,10 +61,19 @@ class Summarised(Printed):
 
 
 def lines_of(rows: Sequence[Row]) -> list[str]:
-    """Name, value and meaning, in columns."""
+    """Name, value and meaning, in columns; a text that is too long for its line goes on below its beginning."""
     wide = max((len(value) for name, value, meaning in rows if name and meaning), default=0)
-    names = max(10, *(len(name) for name, _, _ in rows)) if rows else 0
-    return [f"{name:<{names}} {value:<{wide}}  {meaning}".rstrip() for name, value, meaning in rows]
+    names = max((len(name) + (len(name) > NAME) for name, _, _ in rows), default=NAME)
+    return [line for row in rows for line in _wrapped(*row, max(NAME, names) + 1, wide)]
+
+
+def _wrapped(name: str, value: str, meaning: str, names: int, wide: int) -> Iterator[str]:
+    """The lines of one row, its name and value in columns of these widths."""
+    head, text = (f"{name:<{names}}{value:<{wide}}  ", meaning) if meaning else (f"{name:<{names}}", value)
+    width = max(LONGEST - len(head), LONGEST // 3)
+    for line in wrap(text, width, break_long_words=False, break_on_hyphens=False) or [""]:
+        yield f"{head}{line}".rstrip()
+        head = " " * len(head)
 
 
 def number(value: float, unit: str = "") -> str:

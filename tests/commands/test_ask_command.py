@@ -43,7 +43,9 @@ def test_find(capsys, sled):
     assert json_of(capsys, ["find", sled, "frequency", "--v-c", "10 mm/s", "--json"])["power"] == []
     assert words_of(capsys, ["find", sled, "frequency", "--v-c", "10 mm/s"]).out.startswith("frequency = 3.97887 kHz")
     assert words_of(capsys, ["find", sled, "v_0", "--share", "90%"]).out.startswith("v_0 = ")
-    assert "none: v_c is 50.265 mm/s" in words_of(capsys, ["find", sled, "E", "--v-c", "10 mm/s"], 1).out
+    nothing = words_of(capsys, ["find", sled, "E", "--v-c", "10 mm/s"], 1).out
+    assert "none: v_c is 50.265 mm/s" in nothing
+    assert nothing.endswith("; --within low high searches another range\n")
 
 
 def test_tolerance(capsys, sled, tmp_path):

@@ -198,3 +198,21 @@ def test_a_case_of_one_pascal_reads_back():
         both = text.replace('"0.25 Pa"', "0.25\nG_0 = 1e6\nE_0 = 1").replace('"0.5 Pa"', "0.5\nG_0 = 1\nE_0 = 1")
         with pytest.raises(mdr.CaseFileError, match="E_0 and G_0 say the same"):
             mdr.parse_case(both)
+
+
+@pytest.mark.parametrize(
+    "swapped",
+    [
+        lambda: mdr.KelvinVoigt(3e6, 1e-3, 0.5),
+        lambda: mdr.StandardLinearSolid(3e6, 1e6, 0.3, 2e-3),
+        lambda: mdr.Prony(3e6, [(1e6, 1e-3)], 1e-4, 0.5),
+        lambda: mdr.Elastic(3e6, 5e-3),
+    ],
+)
+def test_a_time_in_the_place_of_poissons_ratio_is_told_where_the_material_is_made(swapped):
+    with pytest.warns(mdr.PlausibilityWarning, match=r"is Poisson's ratio of no solid, cork included: is it nu, or a time"):
+        swapped()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mdr.Elastic(3e6, 0.0)
+        mdr.KelvinVoigt(3e6, 0.01, 0.5)

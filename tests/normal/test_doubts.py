@@ -25,7 +25,7 @@ ABSURD = {
     "a sphere pressed four radii deep": ({"indenter": mdr.Sphere(R=5e-6)}, "slope"),
     "a paraboloid with a/R = 63": ({"indenter.R": 5e-9}, "slope 63.2"),
     "a punch pressed two radii deep": ({"indenter": mdr.FlatPunch(a=1e-5)}, "2 times the radius"),
-    "du_z and u_z0 swapped": ({"oscillation.u_z0": 2e-6, "oscillation.du_z": 20e-6}, "are the two swapped"),
+    "du_z and u_z0 swapped": ({"oscillation.u_z0": 2e-6, "oscillation.du_z": 20e-6}, "du_z and u_z0 may be swapped"),
     "friction in per cent": ({"mu_0": 50.0}, "percentage"),
     "E = 3 for 3 MPa": ({"material.E": 3.0}, "softer than a gel: is a modulus in MPa"),
     "E = 210e12 for 210 GPa": ({"material": mdr.Elastic(2.1e14, 0.3)}, "stiffer than diamond"),
@@ -75,6 +75,16 @@ ABSURD = {
         {"oscillation": mdr.LoadOscillation(0.03, 0.003, USUAL.omega, 100.0)},
         "of m_z, 980.7 N, is 3.27e\\+04 times",
     ),
+    "a spool that presses less deep than its roughness": (
+        {"indenter": mdr.Sphere(1e-2), "material": STEEL, "oscillation": mdr.ConstantLoad(5.0),
+         "pull": mdr.RigidPull(), "shake": mdr.InPlaneOscillation(1256.6, 1e-6)},
+        r"the depth, 2.98e-07 m, is below the roughness of ground steel, .* take a rough face, RoughFace, or FromForce",
+    ),
+    "an ultrasonic amplitude below the roughness": (
+        {"indenter": mdr.Sphere(1e-2), "material": STEEL, "oscillation": mdr.ConstantLoad(50.0),
+         "pull": mdr.RigidPull(), "shake": mdr.InPlaneOscillation(163363.0, 0.35e-6)},
+        "amplitude of the shake, 3.5e-07 m at 2.6e\\+04 Hz, is below the roughness",
+    ),
     "a mass in wrong units": ({"pull.m": 1e-6}, "is it in the right unit"),
 }
 
@@ -87,6 +97,16 @@ def test_an_absurd_contact_is_warned_of_and_computed(what):
         assert mdr.critical_velocity(case) > 0
     assert {one.filename for one in said} == {__file__}  # the user's line
     assert tuple(str(one.message) for one in said) == mdr.plausibility(case)
+
+
+@pytest.mark.parametrize("changed", [
+    {"indenter": mdr.Sphere(30e-9), "oscillation": mdr.NormalOscillation(2e-9, 5e-10, 6e5)},  # a tip: one asperity
+    {"indenter": mdr.Sphere(1e-2), "oscillation": mdr.NormalOscillation(8e-6, 3e-7, 125663.7)},  # deeper than all
+    {"indenter": mdr.RoughFace(1e-6, 1e-5), "oscillation": mdr.NormalOscillation(3e-7, 3e-8, 300.0)},
+])  # fmt: skip
+def test_of_roughness_nothing_is_said_where_it_is_not_felt_or_known(changed):
+    case = case_at(USUAL, {"material": STEEL, "pull": mdr.RigidPull(), **changed})
+    assert not [said for said in mdr.plausibility(case) if "rough" in said]
 
 
 def ball(R, material, mu_0, motion, *more):
@@ -171,7 +191,8 @@ def sensible(rng):
         depth = float(shape.profile_1d(a)) if not isinstance(shape, mdr.FlatPunch) else slope * a
         waves = 2 * np.pi / omega * np.sqrt(E / 3e3)
         g = alpha * depth * omega**2 / 9.81
-        if waves < 20 * a or g > 1e5 or a / slope > 0.5 or depth * min(alpha, 1) < 1e-9:
+        deep = kind < 2 or min(depth, alpha * depth) > 1e-6  # a metal has roughness
+        if waves < 20 * a or g > 1e5 or a / slope > 0.5 or depth * min(alpha, 1) < 1e-9 or not deep:
             continue
         case = contact(shape, 1 / alpha, T, *of_body, du_z=alpha * depth, omega=omega, mu_0=mu_0, nu=nu, E=E)
         force = float(shape.force(depth, case.material.E_star))

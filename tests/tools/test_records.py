@@ -155,3 +155,13 @@ def test_numbers_are_cut_to_what_is_known():
 
 def test_markup_is_text():
     assert "&lt;b&gt;" in Summary("<b>", [("a", "<b>", "")]).html
+
+
+def test_a_text_too_long_for_its_line_goes_on_below_its_beginning():
+    rows = [("a name of 20 letters", "1 m", "word " * 40), ("short", "2 m", "meaning"), ("why", "x" * 130 + " and on", "")]
+    lines = lines_of(rows)
+    assert [line.index("word") for line in lines[:2]] == [27, 27]
+    assert lines[0].startswith("a name of 20 letters  1 m  word")
+    assert max(map(len, lines[:3])) <= 118
+    assert " ".join(" ".join(lines).split()).count("word") == 40
+    assert lines[-2:] == [f"{'why':22}{'x' * 130}", f"{'':22}and on"]  # what cannot be parted stays whole
