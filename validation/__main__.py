@@ -10,12 +10,15 @@ import time
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import closing
+from dataclasses import replace
 from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
 from validation import Outcome, not_tested, send_claim
+from validation.kept import Kept
 from validation.page import write_report
+from validation.page.made import Made
 from validation.report import text_table
 from validation.written import other_verdicts
 
@@ -25,19 +28,43 @@ LONGEST = ("generalisation", "shear_strength", "coupled", "end_of_stick", "judge
 
 def main(argv: Sequence[str] | None = None, package: str = "validation") -> int:
     """Test the claims of `package`; 0 if every check held and docs/claims.md quotes every verdict, 1 if not, 2 for
-    wrong arguments, 130 if interrupted.
+    wrong arguments, 130 if it was stopped.
     """
-    known = importlib.import_module(package).CLAIMS
+    known, begin = importlib.import_module(package).CLAIMS, time.monotonic()
     args = _arguments(known).parse_args(argv)
     names = [name for name in known if name in (args.only or known)]
+    kept = Kept(args.output, package, args.effort)
+    if args.fresh:
+        kept.forget(names)
+    outcomes = kept.read(names)
+    made = Made(tuple(names), n_kept=len(outcomes))
+    if outcomes:
+        print(f"{len(outcomes)} of {len(names)} claims are kept from a run that was stopped", file=sys.stderr)
+
+    def written() -> Path:
+        """The page of what there is."""
+        now = replace(made, seconds=time.monotonic() - begin)
+        claims = [outcomes[name].claim for name in names if name in outcomes]
+        return write_report(claims, args.output, args.effort, now)
+
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a kill stops it as Ctrl-C does
     try:
-        with closing(run_all(names, args.effort, package, args.jobs)) as ended:
-            outcomes = dict(_progress(ended, len(names)))
-        claims = [outcomes[name].claim for name in names]
-        page = write_report(claims, args.output, args.effort)
+        left = [name for name in names if name not in outcomes]
+        with closing(run_all(left, args.effort, package, args.jobs)) as ended:
+            for name, outcome in _progress(ended, len(names), len(outcomes)):
+                outcomes[name] = outcome
+                kept.write(name, outcome)
+                written()
     except KeyboardInterrupt:
-        print("interrupted before the report was complete", file=sys.stderr)
+        where = f"; report: {written()}" if outcomes else ""
+        done = f"stopped with {len(outcomes)} of {len(names)} claims done"
+        print(f"{done}, from which the same command goes on{where}", file=sys.stderr)
         return 130
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    page = written()
+    kept.forget(names)
+    claims = [outcomes[name].claim for name in names]
     print(text_table(claims))
     print(f"report: {page}")
     other = other_verdicts(claims) if package == "validation" else []
@@ -106,12 +133,12 @@ def _context() -> Any:
     return context
 
 
-def _progress(ended: Iterator[tuple[str, Outcome]], total: int) -> Iterator[tuple[str, Outcome]]:
+def _progress(ended: Iterator[tuple[str, Outcome]], total: int, done: int) -> Iterator[tuple[str, Outcome]]:
     """Show a bar on a terminal, and one line per claim either way, both on stderr."""
     from tqdm import tqdm
 
-    with tqdm(total=total, desc="claims", unit="claim", disable=not sys.stderr.isatty()) as bar:
-        for n, (name, outcome) in enumerate(ended, start=1):
+    with tqdm(total=total, initial=done, desc="claims", unit="claim", disable=not sys.stderr.isatty()) as bar:
+        for n, (name, outcome) in enumerate(ended, start=done + 1):
             claim, seconds, trace = outcome
             count = f"{claim.n_held}/{len(claim.checks)} checks held"
             place = f"claim {n} of {total}, " if total > 1 else ""
@@ -128,6 +155,8 @@ def _arguments(known: Sequence[str]) -> argparse.ArgumentParser:
         effort.add_argument(f"--{name}", dest="effort", action="store_const", const=name, help=told)
     parser.add_argument("-o", "--output", type=Path, default=Path("report"), help="folder (default: report)")
     parser.add_argument("--only", nargs="+", choices=known, metavar="name", help=", ".join(known))
+    fresh = "begin anew, and forget the claims that a stopped run has done"
+    parser.add_argument("--fresh", action="store_true", help=fresh)
     jobs = min(os.cpu_count() or 1, len(known))
     parser.add_argument("--jobs", type=_positive, default=jobs, metavar="N", help="claims at a time")
     return parser

@@ -13,6 +13,7 @@ from dataclasses import InitVar, dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mdr.tools.atomic_write import write_whole
 from validation.typeset import plain
 
 VERDICTS = ("holds", "holds if …", "fails when …")  #: a verdict reads or starts like one of these
@@ -224,7 +225,7 @@ def write_record(claims: Sequence[Claim], folder: str | Path) -> None:
         "checks": [check.record(claim.name) for claim in claims for check in claim.checks],
     }
     text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
-    (folder / "checks.json").write_text(text + "\n", encoding="utf-8")
+    write_whole(folder / "checks.json", f"{text}\n".encode())
 
 
 def text_table(claims: Iterable[Claim]) -> str:

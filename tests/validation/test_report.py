@@ -4,10 +4,14 @@ import json
 import math
 import os
 import pickle
+import platform
 import re
+import signal
 import subprocess
 import sys
+import time
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -15,8 +19,10 @@ import pytest
 
 import validation
 import validation.__main__ as command
+from mdr.tools.provenance import versions
 from validation.page import html_page, write_report
 from validation.page.answer import answers
+from validation.page.made import Made
 from validation.report import Check, Claim, Equation, Figure, Part, text_table, told
 
 ROOT = Path(__file__).parents[2]
@@ -304,6 +310,97 @@ def test_another_process_writes_the_same_bytes(claims):
     assert {p.name for p in Path("out1").iterdir()} == {"index.html", "checks.json", "one-f.svg", "one-f.png"}
     for path in Path("out1").iterdir():
         assert path.read_bytes() == Path("out2", path.name).read_bytes()
+
+
+WAITS = """open("begun", "a").close()
+    import os, time
+    while not os.path.exists("go"): time.sleep(0.01)"""
+COUNTS = 'open("ran", "a").write("1")'
+
+
+def begun(claims, package, *argv):
+    """The report of two claims, stopped or killed by nobody yet, once the first is done and the second at work."""
+    code = f"from validation.__main__ import main; raise SystemExit(main(['--jobs', '1', *{argv!r}], {package!r}))"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), str(ROOT)])}
+    process = subprocess.Popen([sys.executable, "-c", code], env=environment, stderr=subprocess.PIPE, text=True)
+    while not (Path("begun").exists() and Path("report/index.html").exists()) and process.poll() is None:
+        time.sleep(0.02)
+    return process
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_stop_leaves_a_page_and_a_second_start_goes_on(claims, capsys, how):
+    package = claims(f"stopped_{how.name.lower()}", one=(1.0, COUNTS), two=(1.0, WAITS))
+    process = begun(claims, package, "--quick")
+    process.send_signal(how)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == (-how if how == signal.SIGKILL else 130)
+    assert how == signal.SIGKILL or "stopped with 1 of 2 claims done, from which the same command goes on" in said
+    assert "Traceback" not in said
+    page = Path("report/index.html").read_text(encoding="utf-8")
+    assert "<b>STOPPED</b> 1 of 2 claims are done" in page
+    assert [one["name"] for one in json.loads(Path("report/checks.json").read_text())["claims"]] == ["one"]
+    Path("go").touch()
+    assert command.main(["--quick"], package) == 0
+    assert "1 of 2 claims are kept from a run that was stopped" in capsys.readouterr().err
+    assert Path("ran").read_text() == "1"
+    page = Path("report/index.html").read_text(encoding="utf-8")
+    assert "STOPPED" not in page
+    assert "1 of the claims by a run before, which was stopped" in page
+    assert {path.name for path in Path("report").iterdir()} == {"index.html", "checks.json"}  # nothing is kept of it
+    assert command.main(["--quick"], package) == 0
+    assert Path("ran").read_text() == "11"  # a complete report tests all claims again
+
+
+@pytest.mark.parametrize("change", ["source", "effort", "fresh", "bytes", "stranger"])
+def test_what_a_claim_was_tested_with_is_what_it_is_kept_for(claims, capsys, change):
+    package = claims(f"changed_{change}", one=(1.0, COUNTS), two=(1.0, WAITS))
+    process = begun(claims, package)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    (kept,) = Path("report/kept").iterdir()
+    if change == "source":
+        module = Path(package, "one.py")
+        module.write_text(module.read_text(encoding="utf-8") + "# another\n", encoding="utf-8")
+    elif change == "bytes":
+        kept.write_bytes(kept.read_bytes()[:-1] + b"?")
+    elif change == "stranger":  # what is no claim is not read
+        data = pickle.dumps(Path("somewhere"))
+        kept.write_bytes(sha256(data).digest() + data)
+    Path("go").touch()
+    options = {"effort": ["--quick"], "fresh": ["--fresh"]}.get(change, [])
+    assert command.main(options, package) == 0
+    assert "are kept" not in capsys.readouterr().err
+    assert Path("ran").read_text() == "11"
+
+
+def test_a_claim_that_broke_off_is_not_kept(claims):
+    package = claims("breaks", one=(1.0, "1 / 0"), two=(1.0, WAITS))
+    process = begun(claims, package)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    assert not Path("report/kept").exists()
+
+
+def test_the_foot_says_what_made_the_report():
+    made = Made(("mapping",), seconds=100.0)
+    page = html_page([made_up_claim("mapping")], "quick", made)
+    foot = re.search("<footer>(.*)</footer>", page)[1]
+    assert "<code>python -m validation --quick --only mapping</code>" in foot
+    assert re.search(r"(at commit [0-9a-f]{12}( with edits)?|of no known commit), on \d{4}-\d\d-\d\d, in 2 min on \d+ cores? of", foot)
+    assert platform.node() not in foot
+    assert versions() in foot
+    assert "the claims that answer this were not asked" in page.lower()
+    assert '<a href="#mapping">' in page.partition("<ul class=answers>")[2]
+
+
+def test_a_verdict_on_the_physics_has_another_colour_than_a_check_that_was_missed():
+    css = Path(ROOT, "validation/page/page.css").read_text(encoding="utf-8")
+    colour = {name: re.search(rf"\.{name}\b[^{{]*{{ color: (#\w+)", css)[1] for name in ("fails", "no", "yes")}
+    assert len(set(colour.values())) == 3
+    page = html_page([made_up_claim(verdict="fails when ω = ω_0")])
+    assert "<span class=fails>fails when" in page
+    assert "<span class=yes>2/2</span>" in page
 
 
 def test_the_longest_claim_begins_first_and_the_page_keeps_its_order(claims):

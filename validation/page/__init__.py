@@ -6,29 +6,30 @@ What is the same in every report is in page.html, page.css and page.js.
 from collections.abc import Sequence
 from pathlib import Path
 
+from mdr.tools.atomic_write import write_whole
 from validation import CLAIMS, GROUPS
 from validation.formula import mathml
 from validation.page.answer import answers
 from validation.page.claims import count_of, equation_of, equations_of, figure_of, group_of, kind_of, slug
+from validation.page.made import Made
 from validation.page.paper import EQ_15, PAPER, SYMBOLS
 from validation.report import Claim, write_record
 from validation.typeset import markup
 
+AS_IT_IS = Made()
 Groups = list[tuple[str, str, list[Claim]]]  #: title, what the group is about, and its claims
 
 
-def write_report(claims: Sequence[Claim], folder: str | Path, effort: str = "full") -> Path:
+def write_report(claims: Sequence[Claim], folder: str | Path, effort: str = "full", made: Made = AS_IT_IS) -> Path:
     """Write index.html, checks.json and the figures into `folder`; return the page."""
     write_record(claims, folder)
     page = Path(folder) / "index.html"
-    page.write_text(html_page(claims, effort), encoding="utf-8")
+    write_whole(page, html_page(claims, effort, made).encode("utf-8"))
     return page
 
 
-def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
+def html_page(claims: Sequence[Claim], effort: str = "full", made: Made = AS_IT_IS) -> str:
     """Give the whole report; a tap on a figure enlarges it or undoes that, a link opens the section it leads to."""
-    from mdr.tools.provenance import versions
-
     glance = [(claim, figure) for claim in claims for figure in claim.figures if figure.name == "glance"][:1]
     groups = _groups(claims)
     return _own("page.html").format(
@@ -37,17 +38,16 @@ def html_page(claims: Sequence[Claim], effort: str = "full") -> str:
         css=_own("page.css"),
         js=_own("page.js"),
         sections=_sections(groups),
-        marks=_marks(claims, effort),
+        marks=_marks(claims, effort, made),
         eq_15=equation_of(EQ_15),
-        answers=_answers(answers(claims)),
+        answers=_answers(answers(claims), claims),
         glance="\n".join(figure_of(claim, figure) for claim, figure in glance),
         count=count_of(sum(claim.n_held for claim in claims), sum(len(claim.checks) for claim in claims)),
         n_claims=len(claims),
         symbols="".join(_symbol(*one) for one in SYMBOLS.items()),
         equations=equations_of(PAPER),
         groups="\n".join(group_of(*group, above=[figure for _, figure in glance]) for group in groups),
-        command="python -m validation" + ("" if effort == "full" else f" --{effort}"),
-        versions=versions(),
+        foot=made.foot(claims, effort),
     )
 
 
@@ -73,24 +73,30 @@ def _sections(groups: Groups) -> str:
     return "".join(items)
 
 
-def _marks(claims: Sequence[Claim], effort: str) -> str:
+def _marks(claims: Sequence[Claim], effort: str, made: Made) -> str:
     """What sets this run apart from the full report."""
     marks = []
+    if left := made.missing(claims):
+        marks.append(
+            f"<b>STOPPED</b> {len(claims)} of {len(claims) + left} claims are done, or it is still at work. The same"
+            f" command goes on from there: <code>{made.command(claims, effort)}</code>."
+        )
     if effort == "quick":
         marks.append(
             "<b>QUICK</b> A run on small grids, which tells whether the program is in order. Its sentences and figures"
             " are about the few points that it computed; the full report is <code>python -m validation</code>."
         )
-    asked = {claim.name for claim in claims} & set(CLAIMS)
+    asked = {*made.asked, *(claim.name for claim in claims)} & set(CLAIMS)
     if asked and len(asked) < len(CLAIMS):
         missing = len(CLAIMS) - len(asked)
         marks.append(f"<b>PART</b> {missing} of the {len(CLAIMS)} claims were not asked for in this run.")
     return "".join(f"<p class=mark>{mark}</p>" for mark in marks)
 
 
-def _answers(sentences: Sequence[str]) -> str:
+def _answers(sentences: Sequence[str], claims: Sequence[Claim]) -> str:
     if not sentences:
-        return ""
+        said = "".join(f'<li><a href="#{one.name}">{markup(one.title)}</a>: {markup(one.sentence)}</li>' for one in claims)
+        return f"<p>The claims that answer this were not asked in this run. Those that were say:</p><ul class=answers>{said}</ul>"
     items = "".join(f"<li>{markup(text)}</li>" for text in sentences)
     springs = "Arrays of springs, each of which sticks, slips and leaves contact on its own, answer:"
     return f"<p>{springs}</p><ol class=answers>{items}</ol>"
