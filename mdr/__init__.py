@@ -120,7 +120,7 @@ if not TYPE_CHECKING:  # what is not there, a checker of types says
                 module = import_module(home)
                 globals()[name] = found = getattr(module, name, module)  # or the module itself
                 return found
-        raise NoSuch(__name__, name, __dir__)
+        raise NoSuch(f"module {__name__!r}", name, __dir__)
 
 
 def __dir__() -> list[str]:

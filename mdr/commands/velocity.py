@@ -107,8 +107,7 @@ def v_c_text(case: mdr.SlidingContact, v_c: float, back: float | None = None) ->
     told = velocity_text(v_c)
     if back is not None:
         told += " either way" if back == v_c else f" forward and {velocity_text(back)} the other way"
-    equals, full = ("is", f": {FULL}") if v_c == math.inf else ("=", "")
-    return f"v_c {equals} {told} by {equation_of(case)[0]}{full}"
+    return f"v_c = {told} by {equation_of(case)[0]}{f': {FULL}' if v_c == math.inf else ''}"
 
 
 def told_number(key: str, value: float, name: str, unit: str, meaning: str) -> Told:

@@ -29,8 +29,8 @@ Attempt = Callable[[Callable[[State], State]], str]  #: makes a change; the answ
 class Knob:
     """One control: name and meaning, a box to type in or to choose from, a slider, and why a value was refused."""
 
-    def __init__(self, control: Control, attempt: Attempt) -> None:
-        self.control, self.attempt, self.showing = control, attempt, False
+    def __init__(self, control: Control, attempt: Attempt, told: Callable[[], None]) -> None:
+        self.control, self.attempt, self.told, self.showing = control, attempt, told, False
         self.words = pn.pane.HTML("", visible=False, margin=(0, 5, 4, 5), **look.WIDE)
         kind, listed = control.path in KINDS, isinstance(control.value, tuple)
         named = {"css_classes": ["kind" if kind else "box", control.path], "margin": (8, 5, 0, 5), **look.WIDE}
@@ -97,6 +97,7 @@ class Knob:
         if bool(words) or self.words.visible:
             together()
             self.words.object, self.words.visible = look.refused(words), bool(words)
+            self.told()
 
 
 def built_of(state: State) -> tuple[Any, ...]:
@@ -108,12 +109,12 @@ def built_of(state: State) -> tuple[Any, ...]:
 class Board:
     """All controls."""
 
-    def __init__(self, state: State, attempt: Attempt) -> None:
-        self.attempt, self.in_groups = attempt, state.in_groups
+    def __init__(self, state: State, attempt: Attempt, told: Callable[[], None]) -> None:
+        self.attempt, self.told, self.in_groups = attempt, told, state.in_groups
         self.built: tuple[Any, ...] = ()
         self.knobs: list[Knob] = []
         self.parts: dict[str, Any] = {slot: pn.Column(margin=0, **look.WIDE) for slot in ("", *KINDS)}
-        self.kinds = {slot: Knob(control_of(state, slot), attempt) for slot in KINDS}
+        self.kinds = {slot: Knob(control_of(state, slot), attempt, told) for slot in KINDS}
         self.held: Any = pn.widgets.RadioButtonGroup(
             options={"SI units": False, "dimensionless groups": True}, value=state.in_groups, margin=(4, 5), **look.WIDE
         )
@@ -135,12 +136,17 @@ class Board:
         if self.built != (built := built_of(state)):
             self.built, self.knobs = built, []
             for slot, controls in controls_of(state).items():
-                made = [Knob(one, self.attempt) for one in controls]
+                made = [Knob(one, self.attempt, self.told) for one in controls]
                 self.knobs += made
                 self.parts[slot].objects = [knob.view for knob in made]
         for knob in (*self.kinds.values(), *self.knobs):
             knob.show(state)
         self.name()
+
+    @property
+    def refuses(self) -> bool:
+        """Whether a box holds what was refused."""
+        return any(knob.words.visible for knob in (*self.kinds.values(), *self.knobs))
 
     def name(self) -> None:
         """Have the browser name the sliders, which no widget does, for those who hear the page."""

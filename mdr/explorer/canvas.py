@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource, Label, Range1d
 from bokeh.plotting import figure
 
 GREY, DARK = "#bbbbbb", "#666666"
@@ -43,6 +43,13 @@ def canvas(height: int, x_label: str, y_label: str, **options: Any) -> Any:
     made.xaxis.axis_label, made.yaxis.axis_label = x_label, y_label
     made.xaxis.ticker.desired_num_ticks = 5
     return made
+
+
+def word(figure: Any) -> Any:
+    """A line of text in the middle of an empty figure, until it has something to show."""
+    label = Label(x=0.5, y=0.5, text="", text_align="center", text_font_size="13px", text_color=DARK)
+    figure.add_layout(label)
+    return label
 
 
 def span(axis: Any, start: float, end: float) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from bokeh.models import Span
 
-from mdr.explorer.canvas import DARK, GREY, canvas, data_of, span, stroke, swatches
+from mdr.explorer.canvas import DARK, GREY, canvas, data_of, span, stroke, swatches, word
 from mdr.explorer.lines import line_of, suits
 from mdr.explorer.pictures import Picture
 from mdr.normal.normal_force import full_cof
@@ -38,12 +38,13 @@ class Curve:
     """The figure and its data."""
 
     def __init__(self) -> None:
-        self.figure = canvas(320, "pulling velocity", "coefficient of friction μ")
+        self.figure = canvas(320, "pulling velocity", "coefficient of friction μ", name="friction")
+        self.word = word(self.figure)  #: what it waits for, until it is shown
         self.shown: Picture | None = None
         self.complete: Picture | None = None  #: the last picture to which nothing is added any more
         self.ghost: Picture | None = None  #: what was complete before the state that is shown
         self.levels, self.ends = (0.0, 0.0), (0.0, 0.0)  #: of the axes of friction and of velocities [m/s], or over v_c
-        self.in_groups = False
+        self.in_groups = self.from_zero = False
         self.line, self.run = data_of("v_0", "cof", name="curve"), data_of("v_0", "cof")
         self.before = data_of("v_0", "cof", name="before")
         self.rigid, self.across = data_of("v_0", "cof"), data_of("v_0", "cof")
@@ -67,7 +68,7 @@ class Curve:
             return False
         if self.shown is None or self.shown.state is not picture.state:
             self.ghost = self.complete
-        self.shown = picture
+        self.shown, self.word.visible = picture, False
         per = self._hold(picture)
         v, curve, run, band = picture.v_0 * per, picture.curve, picture.run, picture.band
         cof_y = None if curve is None else curve.cof_y
@@ -115,4 +116,10 @@ class Curve:
         room = 0.06 * (high - low)
         if not suits(self.levels, low - room, high + room):
             self.levels = (low - room, high + room)
-            span(self.figure.y_range, *self.levels)
+        self.begin(self.from_zero)
+
+    def begin(self, from_zero: bool) -> None:
+        """Begin the axis of friction at zero, or where the curve does; it ends where the curve does."""
+        self.from_zero = from_zero
+        low, high = self.levels
+        span(self.figure.y_range, min(low, 0.0) if from_zero else low, max(high, 0.0) if from_zero else high)

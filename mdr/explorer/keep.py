@@ -25,7 +25,8 @@ class Keep:
         self.picture: Picture | None = None
         self.toml, self.python = _text("TOML", "pre"), _text("Python", "pre-wrap")
         named = "Link to this state, for this machine while the page is served; the browser's back undoes a change"
-        self.link: Any = pn.widgets.TextInput(name=named, css_classes=["shown"], margin=5, **look.WIDE)
+        shown: dict[str, Any] = {"css_classes": ["shown"], "stylesheets": [look.WRAPPED], "margin": 5, **look.WIDE}
+        self.link: Any = pn.widgets.TextInput(name=named, **shown)
         back: Any = pn.widgets.TextInput(visible=False)
         back.param.watch(lambda event: event.new and go(event.new), "value")
         self.link.jscallback(value=LINK, args={"back": back})

@@ -65,6 +65,7 @@ label::first-line { font-weight: 600; color: #000; }
 BOX = f"""{LISTED}
 .bk-input-group {{ display: grid; grid-template-columns: minmax(0, 1fr) 116px; align-items: center; gap: 10px; }}
 """
+WRAPPED = "label { white-space: normal; }"  #: of a long name, which would make a narrow page wider
 KIND = "label { font-weight: 600; font-size: 15px; margin: 10px 0 3px; }"
 PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
 

@@ -12,7 +12,7 @@ from bokeh.layouts import row
 from bokeh.models import CustomJS, LinearColorMapper, Slider, Span, Toggle
 from matplotlib.colors import to_hex
 
-from mdr.explorer.canvas import GREY, canvas, data_of, span, swatches
+from mdr.explorer.canvas import GREY, canvas, data_of, span, swatches, word
 from mdr.explorer.springs import DIRECTIONS, FRAMES, frames_of, map_of
 from mdr.march.result.run import SlidingRun
 from mdr.plots import COLOURS, MODES, around, limit_of, periods_of, prefix
@@ -70,6 +70,8 @@ class OverPeriod:
         mapper = LinearColorMapper(palette=SHADES, low=-0.5, high=len(SHADES) - 0.5)
         self.map.image("image", "x", "y", "dw", "dh", source=self.modes, color_mapper=mapper)
         self.controls = self._animate()
+        #: what the figures wait for, until they are shown
+        self.words = [word(figure) for figure in (self.moving, self.map, self.forces)]
 
     def _animate(self) -> Any:
         """Springs that move, a cursor in the other figures, and the phase: a slider, and a button that moves it."""
@@ -96,6 +98,8 @@ class OverPeriod:
 
     def show(self, run: SlidingRun) -> None:
         """Show a recorded run."""
+        for one in self.words:
+            one.visible = False
         self._show_forces(run)
         factor, unit = prefix([np.max(np.asarray(run.x))], "m")
         reach = float(np.max(np.asarray(run.x))) * factor

@@ -29,7 +29,9 @@ from mdr.tools.compiling import TALLY
 from mdr.tools.notation import shown
 
 COMPUTING = "computing …"
-COMPILING = "compiling, once on this machine and for a quarter of a minute: {} functions so far …"
+COMPILING = "compiling, once on this machine: {} functions so far …"
+NOTHING = "nothing to show: the reason stands below"
+BEHIND = "a box holds what was refused, see there: the pictures are of the last valid case"
 FIRST_SIGHT = "first sight, its error is not bounded yet"
 BOUNDED = f"error of friction at the points ≤ {LEAST_ACCURATE:g} μ<sub>0</sub>; hollow ones are not settled"
 LOAD = "load = {}: the page holds the depth at which it rests, so that the load changes with all that is changed here"
@@ -41,10 +43,10 @@ class Page:
     def __init__(self, state: State, refusal: str = "") -> None:
         self.state, self.first, self.document, self.loaded = state, state, pn.state.curdoc, False
         self.waits = False  #: whether more is computed of the state
-        self.alert, self.status, self.numbers = (look.html() for _ in range(3))
+        self.alert, self.behind, self.status, self.numbers = (look.html() for _ in range(4))
         self.legends = {name: look.html() for name in ("curve", "springs", "forces")}
         self.curve, self.over_period = Curve(), OverPeriod()
-        self.keep, self.board = Keep(self._go), Board(state, self.attempt)
+        self.keep, self.board = Keep(self._go), Board(state, self.attempt, self._refused)
         self.pictures: Latest[State, Picture] = Latest(pictures_of, self._computed(self._show))
         self.asked = [
             Asked("Judge the closed form by simulation", "verdict", verdict_of, self._computed, lambda: self.state),
@@ -68,14 +70,26 @@ class Page:
         reset.on_click(lambda _: self._take(self.first))
         title = "<b style='font-size:19px'>mdr explore</b> &nbsp; sliding friction of a contact under vibration"
         top = pn.FlexBox(pn.pane.HTML(title), pn.pane.HTML("load a case:"), given, reset, align_items="center")
+        from_zero: Any = pn.widgets.Checkbox(name="axis of friction from 0", margin=(0, 10), css_classes=["from-zero"])
+        from_zero.param.watch(lambda event: self._begin(event.new), "value")
+        head = look.heading(f"Friction over velocity{look.ASIDE}")
         pictures = look.column(
-            look.area("curve", look.heading(f"Friction over velocity{look.ASIDE}"), self.faded["curve"], self.status),
+            look.area("curve", head, self.behind, self.faded["curve"], from_zero, self.status),
             look.area("springs", look.heading("The springs over a period"), self.faded["springs"]),
             stylesheets=[look.PICTURES],
         )
         numbers = look.area("numbers", self.numbers, *(part for one in self.asked for part in one.parts))
         body = look.column(pictures, self.board.view, numbers, self.keep.view, stylesheets=[look.LAYOUT])
         return look.column(top, self.alert, body, stylesheets=[look.PAGE])
+
+    def _begin(self, from_zero: bool) -> None:
+        """Where the axis of friction begins."""
+        together()
+        self.curve.begin(from_zero)
+
+    def _refused(self) -> None:
+        """Say beside the pictures whether a box holds what they do not show."""
+        self.behind.object = look.doubted(BEHIND) if self.board.refuses else ""
 
     # --- changes ---
 
@@ -173,6 +187,7 @@ class Page:
         self.waits = isinstance(answer, Picture)
         if isinstance(answer, Exception):
             self.status.object = look.refused(f"{look.words_of(answer)}; the picture is that of before")
+            self._wait(NOTHING)
         elif answer is not None:
             self._draw(answer)
         else:
@@ -196,7 +211,13 @@ class Page:
     def _legend(self, name: str, legend: str) -> None:
         self.legends[name].object = f'<span style="{look.SMALL}">{legend}</span>'
 
+    def _wait(self, why: str) -> None:
+        """Say in figures that are empty yet what they wait for."""
+        for one in (self.curve.word, *self.over_period.words):
+            one.text = why
+
     def _tell(self, status: str) -> None:
+        self._wait(status)
         self.status.object = f'<span style="{look.SMALL}" class="status">{status}</span>'
 
 

@@ -37,7 +37,7 @@ class NoSuch(AttributeError):
         self.known = known
 
     def __str__(self) -> str:
-        return f"{self.args[0]} has no {self.name}; {offer(str(self.name), self.known())}"
+        return f"{self.args[0]} has no attribute {self.name!r}; {offer(str(self.name), self.known())}"
 
     def __reduce__(self) -> tuple[type[AttributeError], tuple[str]]:
         return AttributeError, (str(self),)  # as another process is told
@@ -52,7 +52,7 @@ class Offering:
             kind = type(self)
             if name.startswith("_") or hasattr(kind, name):
                 return object.__getattribute__(self, name)  # as Python tells it; of a property, what fails in it
-            raise NoSuch(kind.__name__, name, lambda: [one for one in dir(self) if not one.startswith("_")])
+            raise NoSuch(f"{kind.__name__!r} object", name, lambda: [one for one in dir(self) if not one.startswith("_")])
 
         def __getitem__(self, index: Any) -> Any:
             own = vars(self).items()

@@ -107,7 +107,7 @@ def test_with_a_shear_strength_no_label_runs_into_its_value(capsys, tmp_path):
     assert out.startswith("full slip with tau_0  infinite ")
     assert "pulled rigidly, full slip with tau_0; friction is full at no velocity" in " ".join(out.split())
     assert max(map(len, out.splitlines())) <= 120
-    head = "v_c is infinite by full slip with tau_0: friction is full at no velocity, mu_0 = 0.5\n"
+    head = "v_c = infinite by full slip with tau_0: friction is full at no velocity, mu_0 = 0.5\n"
     assert words_of(capsys, ["run", path, "--v-0", "1mm/s"]).out.startswith(head)
 
 
@@ -606,7 +606,7 @@ def test_the_cof_across_is_told_and_written(tmp_path, capsys, across):
     assert run["cof_y"] > 0.01
     command = ["curve", across, "--accuracy", "1e-3", "--v-0", "-1e-3", "1e-3", "-o", str(tmp_path)]
     out = words_of(capsys, command).out
-    assert out.startswith("v_c is infinite either way by Eq. (1) with the shake: friction is full at no velocity, mu_0")
+    assert out.startswith("v_c = infinite either way by Eq. (1): friction is full at no velocity, mu_0")
     rows = [line.split() for line in out.splitlines() if line.strip().startswith(("-0.001", "0.001"))]
     assert [float(row[-1]) for row in rows] == pytest.approx([run["cof_y"]] * 2, abs=2e-3)
     assert float(rows[0][2]) == -float(rows[1][2])

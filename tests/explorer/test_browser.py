@@ -72,6 +72,28 @@ def test_back_undoes(browser):
     browser.until(browser.is_complete)
 
 
+def test_the_axis_of_friction_begins_at_zero_at_a_click(browser):
+    begins = "return Bokeh.documents[0].get_model_by_name('friction').y_range.start"
+    before = browser.driver.execute_script(begins)
+    assert before > 0
+    box = browser.inside(".from-zero", "input")
+    for expected in (0, before):
+        box.click()
+        browser.until(lambda expected=expected: browser.driver.execute_script(begins) == expected)
+
+
+@pytest.mark.parametrize("width", [320, 480, 500, 721, 1000])
+def test_a_narrow_page_has_no_level_bar(browser, width):
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    browser.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        wide = "return [window.innerWidth, document.scrollingElement.scrollWidth]"
+        browser.until(lambda: browser.driver.execute_script(wide)[0] == width)
+        browser.until(lambda: browser.driver.execute_script(wide)[1] <= width)
+    finally:
+        browser.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def test_the_phase_moves_the_springs_and_nothing_else(browser):
     state, feet = browser.state(), browser.curve("springs", "foot")
     browser.move("phase", 20)
@@ -92,8 +114,10 @@ def test_a_wrong_number_is_refused_with_words_and_the_picture_stays(browser, pat
     browser.type(path, text)
     browser.until(lambda: any(words in one for one in browser.text(".refused")))
     assert (browser.curve(), browser.state()) == (before, state)
+    assert any("the pictures are of the last valid case" in one for one in browser.text(".doubted"))
     browser.type(path, value)
     browser.until(lambda: not browser.text(".refused"))
+    browser.until(lambda: not any("last valid" in one for one in browser.text(".doubted")))
 
 
 def test_another_kind_brings_its_own_controls(browser):

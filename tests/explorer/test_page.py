@@ -25,6 +25,34 @@ def test_a_value_that_is_refused_leaves_the_state():
     assert page.state.case.material.tau == 2e-3
 
 
+def test_empty_pictures_say_what_they_wait_for_and_friction_begins_where_it_is_asked():
+    from bokeh.document import Document
+    from panel.io.state import set_curdoc
+
+    from mdr.explorer.page import COMPILING, NOTHING, Page
+    from mdr.explorer.pictures import at_once, pictures_of
+    from mdr.explorer.state import State
+
+    state = State.of(CASE)
+    with set_curdoc(Document()):
+        page = Page(state)
+        words = [page.curve.word, *page.over_period.words]
+        for told in (COMPILING.format(7), NOTHING):
+            page._wait(told)
+            assert [one.text for one in words if one.visible] == [told] * 4
+        page._draw(at_once(state))  # what is known in closed form alone
+        assert [one.visible for one in words] == [False, True, True, True]
+        page._draw([*pictures_of(state)][-1])
+        assert not any(one.visible for one in words)
+        axis = page.curve.figure.y_range
+        low, high = axis.start, axis.end
+        assert 0 < low < high
+        page._begin(True)
+        assert (axis.start, axis.end, axis.reset_start) == (0.0, high, 0.0)
+        page._begin(False)
+        assert (axis.start, axis.end) == (low, high)
+
+
 def test_changes_leave_together_when_the_document_calls():
     from bokeh.document import Document
     from bokeh.document.events import ModelChangedEvent

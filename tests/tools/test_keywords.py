@@ -30,7 +30,7 @@ def test_a_function_stays_what_it_was():
     ],
 )  # fmt: skip
 def test_an_attribute_that_there_is_not_is_met_with_the_one_that_was_meant(of, name, meant):
-    with pytest.raises(AttributeError, match=f"has no {name}; did you mean {meant}\\?") as refused:
+    with pytest.raises(AttributeError, match=f"has no attribute '{name}'; did you mean {meant}\\?") as refused:
         getattr(of, name)
     assert str(pickle.loads(pickle.dumps(refused.value))) == str(refused.value)  # as a helper of a study sends it
     assert not hasattr(of, name)
