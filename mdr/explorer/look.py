@@ -44,7 +44,7 @@ AREAS = {
 """,
     "picture": """
 @media (max-width: 720px) { :host {
-        flex: 0 0 100% !important; scroll-snap-align: start; max-height: min(52vh, 410px);
+        flex: 0 0 100% !important; scroll-snap-align: start; max-height: min(52vh, 430px);
         overflow: hidden auto !important; } }
 """,
 }
@@ -66,7 +66,7 @@ BOX = f"""{LISTED}
 .bk-input-group {{ display: grid; grid-template-columns: minmax(0, 1fr) 116px; align-items: center; gap: 10px; }}
 """
 WRAPPED = "label { white-space: normal; }"  #: of a long name, which would make a narrow page wider
-KIND = "label { font-weight: 600; font-size: 15px; margin: 10px 0 3px; }"
+KIND = "label { font-weight: 600; font-size: 15px; margin: 10px 0 3px; white-space: normal; }"
 PAGE = ":host { max-width: 1560px; margin: 0 auto !important; padding: 0 14px; box-sizing: border-box; }"
 
 

@@ -73,7 +73,8 @@ def plot_curve(
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
         settled, across = (np.all(curve.settled) for curve in curves), (_across(curve) is not None for curve in curves)
-        _curve_legend(ax, all(settled), both, any(across))
+        static = [] if both else [curve.static_cof / mu for curve, (_, mu) in zip(curves, scales, strict=True)]
+        _curve_legend(ax, static, all(settled), any(across))
     return ax
 
 
@@ -237,19 +238,34 @@ def _across(curve: Any) -> Any:
     return None if cof_y is None or np.all(np.abs(cof_y) <= curve.cof_error) else np.asarray(cof_y)
 
 
-def _curve_legend(ax: Axes, settled: bool, both: bool, across: bool) -> None:
-    """Explain the labels given, the static limit, and a hollow point and the COF across where there are such."""
+def _curve_legend(ax: Axes, static: Sequence[float], settled: bool, across: bool) -> None:
+    """Explain the labels given, and what is in sight of static limits, hollow points and the COF across.
+
+    It follows the axis of friction, unless another legend has taken its place.
+    """
     from matplotlib.lines import Line2D
 
-    handles, _ = ax.get_legend_handles_labels()
-    if not both:
-        handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
-    if across:
-        handles.append(Line2D([], [], color="0.3", lw=1.2, ls="-.", label="across the pull"))
-    if not settled:
-        handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
-    if handles:
-        ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
+    made = ax.get_legend()
+
+    def explain(_: Any = None) -> None:
+        nonlocal made
+        if ax.get_legend() is not made:
+            return
+        handles, _ = ax.get_legend_handles_labels()
+        low, high = sorted(ax.get_ylim())
+        if any(low <= level <= high for level in static):
+            handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
+        if across:
+            handles.append(Line2D([], [], color="0.3", lw=1.2, ls="-.", label="across the pull"))
+        if not settled:
+            handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
+        if made is not None:
+            made.remove()
+        with style():
+            made = ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none") if handles else None
+
+    explain()
+    ax.callbacks.connect("ylim_changed", explain)
 
 
 def _is_scale(v_c: Any) -> bool:

@@ -33,6 +33,7 @@ LABELS = {
     "stick_share": "share of contact time in stick",
     "cof_error": "error of the coefficient of friction",
 }  #: how quantities are written in figures; any other by its name
+NEAR = 0.1  #: of the greatest value, below which zero is worth a tick
 ABSENT = (("failed", Status.FAILED), ("not computed", Status.MISSING))
 
 
@@ -288,9 +289,12 @@ def _draw_critical(ax: Axes, line: list[Array]) -> None:
 
 
 def _limits(values: Array, log: bool) -> tuple[float, float]:
-    """The range of what colours can show."""
+    """The range of what colours can show; one that nearly begins at zero begins there."""
     seen = values[np.isfinite(values) & ((values > 0) | (not log))]
-    return (float(seen.min()), float(seen.max())) if seen.size else (0.1, 1.0)
+    if not seen.size:
+        return 0.1, 1.0
+    low, high = float(seen.min()), float(seen.max())
+    return (low if log or not 0 < low < NEAR * high else 0.0), high
 
 
 def _colorbar(fig: Any, mesh: Any, ax: Any, study: Study, quantity: str) -> None:
@@ -365,8 +369,11 @@ def _is_log(axis: Axis) -> bool:
 
 
 def _edges(axis: Axis, places: Array) -> Array:
-    """Borders (n + 1,) of the cells of a map whose centres stand at these places."""
-    return np.exp(edges_of(np.log(places))) if _is_log(axis) else np.asarray(edges_of(places))
+    """Borders (n + 1,) of the cells of a map about these places; at zero ends an axis that has no value beyond it."""
+    if _is_log(axis):
+        return np.asarray(np.exp(edges_of(np.log(places))))
+    edges = edges_of(places)
+    return np.maximum(edges, 0.0) if places[0] >= 0 else np.minimum(edges, 0.0) if places[-1] <= 0 else edges
 
 
 def _name(name: str, unit: str) -> str:

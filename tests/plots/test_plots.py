@@ -248,5 +248,17 @@ def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():
     assert legend_texts(plots.plot_curve(made_up_curve(cof_y=np.full(6, 1e-6)))) == ["static limit"]
 
 
+def test_a_static_limit_is_named_while_it_is_in_sight():
+    ax = plots.plot_curve(made_up_curve(), labels=["cone"])
+    ax.set(ylim=(0.9, 1.01))
+    assert legend_texts(ax) == ["cone"]
+    ax.set(ylim=(0.0, 1.01))
+    assert legend_texts(ax) == ["cone", "static limit"]
+    ax.legend(["mine"])
+    ax.set(ylim=(0.9, 1.01))
+    assert legend_texts(ax) == ["mine"]
+    assert plots.plot_curve(made_up_curve(static_cof=np.nan)).get_legend() is None
+
+
 def test_modes_follow_the_library():
     assert [name for name, _ in plots.MODES] == [mdr.State(i).name.lower().replace("_", " ") for i in range(4)]

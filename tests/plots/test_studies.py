@@ -104,6 +104,21 @@ def test_axes_that_grow_by_a_factor_are_logarithmic():
     assert_allclose(ax.collections[0].get_coordinates()[0, :2, 0], [0.1 / 10**0.25, 0.1 * 10**0.25])
 
 
+def test_no_cell_of_a_map_lies_beyond_zero_and_colours_that_nearly_begin_there_do():
+    axes = {"alpha": [0.1, 0.5, 0.95], "v_0": [0.0, 1e-5, 2e-5]}
+    study = mdr.sweep(replace(CASE, material=mdr.Elastic(3e6, 0.5)), axes, n_springs=32, steps_per_period=32)
+    ax = study.plot_map("cof")
+    assert (ax.get_xlim()[0], ax.get_ylim()[0]) == (0.0, 0.0)
+    assert ax.get_xlim()[1] == pytest.approx(25.0)  # µm/s, half a cell beyond the last
+    bar = next(one for one in ax.figure.axes if one is not ax)
+    assert 0 < study["cof"].min() < 0.1 * study["cof"].max()
+    assert ax.collections[0].get_clim()[0] == 0.0
+    assert 0.0 in bar.get_yticks()
+    shaken = replace(contact("paraboloid"), shake=mdr.InPlaneOscillation(omega=300.0, du_x=1e-5))
+    both = mdr.sweep(shaken, {"alpha": [0.1, 0.2], "v_0": [-1e-4, 0.0, 1e-4]}, n_springs=32, steps_per_period=32)
+    assert both.plot_map("cof").get_xlim()[0] < -1e-4
+
+
 def critical(ax):
     """Places of the dashed line of a map."""
     return [np.asarray(line.get_data()) for line in ax.lines if line.get_linestyle() == "--"]
