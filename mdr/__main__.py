@@ -47,7 +47,8 @@ COMMANDS = {
     "velocity": Command(
         "velocity:velocity", "critical velocity and static friction in closed form, without a run", CASE),
     "run": Command("run:run", "one velocity: friction with its error, and the springs that stick and slip", CASE),
-    "curve": Command("curve:curve", "coefficient of friction over pulling velocity, in closed form where there is one, else by runs", CASE),
+    "curve": Command(
+        "curve:curve", "friction over pulling velocity, in closed form where there is one, else by runs", CASE),
     "half-space": Command(
         "run:half_space", "one velocity in three dimensions: friction with its errors, and a map", CASE),
     "measure": Command("judge:measure", "critical velocity from simulation alone", CASE),

@@ -145,8 +145,8 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
     if is_given and known.working_depth > 0 and known.alpha > 5.0:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} times the mean depth (du_z = {known.cycle.du_z:.4g} m, "
-            f"u_z0 = {known.cycle.u_z0:.4g} m), so that the indenter hammers and is in the air most of the time; if that "
-            "is not meant, du_z and u_z0 may be swapped"
+            f"u_z0 = {known.cycle.u_z0:.4g} m), so that the indenter hammers, in the air most of the time; if this is "
+            "not meant, du_z and u_z0 may be swapped"
         )
     if is_given and known.oscillation.omega and 0 < known.alpha < LEAST:
         yield (

@@ -11,10 +11,7 @@ from mdr.commands.arguments import path_of, read_as, whole_number
 from mdr.commands.output import Exit, WrongInput, answer
 from mdr.files.examples import example
 
-INSTALL = (
-    "mdr explore needs Panel and Bokeh, which are not installed ({missing}): "
-    "pip install panel bokeh"
-)
+INSTALL = "mdr explore needs Panel and Bokeh, which are not installed ({missing}): pip install panel bokeh"
 
 
 def add_options_of_explore(command: argparse.ArgumentParser) -> None:

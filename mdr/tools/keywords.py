@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import wraps
 from inspect import signature
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
@@ -32,12 +32,13 @@ class NoSuch(AttributeError):
     `obj` stays None, so that Python adds no offer of its own.
     """
 
-    def __init__(self, owner: str, name: str, known: Callable[[], list[str]]) -> None:
+    def __init__(self, owner: str, name: str, known: Callable[[], Iterable[str]]) -> None:
         super().__init__(owner, name=name)
         self.known = known
 
     def __str__(self) -> str:
-        return f"{self.args[0]} has no attribute {self.name!r}; {offer(str(self.name), self.known())}"
+        known = sorted(one for one in self.known() if not one.startswith("_"))
+        return f"{self.args[0]} has no attribute {self.name!r}; {offer(str(self.name), known)}"
 
     def __reduce__(self) -> tuple[type[AttributeError], tuple[str]]:
         return AttributeError, (str(self),)  # as another process is told
@@ -49,16 +50,15 @@ class Offering:
     if not TYPE_CHECKING:  # what is not there, a checker of types says
 
         def __getattr__(self, name: str) -> Any:
-            kind = type(self)
-            if name.startswith("_") or hasattr(kind, name):
+            if name.startswith("_") or hasattr(type(self), name):
                 return object.__getattribute__(self, name)  # as Python tells it; of a property, what fails in it
-            raise NoSuch(f"{kind.__name__!r} object", name, lambda: [one for one in dir(self) if not one.startswith("_")])
+            raise NoSuch(f"{type(self).__name__!r} object", name, self.__dir__)
 
         def __getitem__(self, index: Any) -> Any:
-            own = vars(self).items()
-            lists = [f".{name}[{index!r}]" for name, value in own if isinstance(value, tuple) or getattr(value, "ndim", 0)]
-            way = f".{index}" if isinstance(index, str) else " or ".join(lists[:2]) or f"its values, as .{next(iter(own))[0]}"
-            raise TypeError(f"{type(self).__name__} is no list; take {way}")
+            own = vars(self)
+            lists = [name for name, value in own.items() if isinstance(value, tuple) or getattr(value, "ndim", 0)]
+            way = " or ".join(f".{name}[{index!r}]" for name in lists[:2]) or f"its values, as .{next(iter(own))}"
+            raise TypeError(f"{type(self).__name__} is no list; take {f'.{index}' if isinstance(index, str) else way}")
 
 
 def _meant(name: str, known: list[str]) -> str:

@@ -96,7 +96,8 @@ def test_velocity_for_machines(capsys, punch):
 
 
 def test_a_resonance_is_an_answer(capsys, resonant):
-    assert re.search(r"Eq. \(15\) +infinite .*; friction is full at no velocity", words_of(capsys, ["velocity", resonant]).out)
+    out = words_of(capsys, ["velocity", resonant]).out
+    assert re.search(r"Eq. \(15\) +infinite .*; friction is full at no velocity", out)
     assert json_of(capsys, ["velocity", "--json", resonant])["v_c"] == "inf"
 
 

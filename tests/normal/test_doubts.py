@@ -76,13 +76,23 @@ ABSURD = {
         "of m_z, 980.7 N, is 3.27e\\+04 times",
     ),
     "a spool that presses less deep than its roughness": (
-        {"indenter": mdr.Sphere(1e-2), "material": STEEL, "oscillation": mdr.ConstantLoad(5.0),
-         "pull": mdr.RigidPull(), "shake": mdr.InPlaneOscillation(1256.6, 1e-6)},
+        {
+            "indenter": mdr.Sphere(1e-2),
+            "material": STEEL,
+            "oscillation": mdr.ConstantLoad(5.0),
+            "pull": mdr.RigidPull(),
+            "shake": mdr.InPlaneOscillation(1256.6, 1e-6),
+        },
         r"the depth, 2.98e-07 m, is below the roughness of ground steel, .* take a rough face, RoughFace, or FromForce",
     ),
     "an ultrasonic amplitude below the roughness": (
-        {"indenter": mdr.Sphere(1e-2), "material": STEEL, "oscillation": mdr.ConstantLoad(50.0),
-         "pull": mdr.RigidPull(), "shake": mdr.InPlaneOscillation(163363.0, 0.35e-6)},
+        {
+            "indenter": mdr.Sphere(1e-2),
+            "material": STEEL,
+            "oscillation": mdr.ConstantLoad(50.0),
+            "pull": mdr.RigidPull(),
+            "shake": mdr.InPlaneOscillation(163363.0, 0.35e-6),
+        },
         "amplitude of the shake, 3.5e-07 m at 2.6e\\+04 Hz, is below the roughness",
     ),
     "a mass in wrong units": ({"pull.m": 1e-6}, "is it in the right unit"),

@@ -59,6 +59,6 @@ def test_a_result_is_no_list_and_says_the_way():
         MANY[1]
     with pytest.raises(TypeError, match=r"CofCurve is no list; take .cof$"):
         CURVE["cof"]
-    with pytest.raises(TypeError, match="Cone is no list; take its values, as .theta"):
+    with pytest.raises(TypeError, match=r"Cone is no list; take its values, as .theta"):
         list(CASE.indenter)
     assert np.array([CASE, CASE], dtype=object).shape == (2,)

@@ -158,8 +158,8 @@ def test_markup_is_text():
 
 
 def test_a_text_too_long_for_its_line_goes_on_below_its_beginning():
-    rows = [("a name of 20 letters", "1 m", "word " * 40), ("short", "2 m", "meaning"), ("why", "x" * 130 + " and on", "")]
-    lines = lines_of(rows)
+    whole = ("why", "x" * 130 + " and on", "")
+    lines = lines_of([("a name of 20 letters", "1 m", "word " * 40), ("short", "2 m", "meaning"), whole])
     assert [line.index("word") for line in lines[:2]] == [27, 27]
     assert lines[0].startswith("a name of 20 letters  1 m  word")
     assert max(map(len, lines[:3])) <= 118

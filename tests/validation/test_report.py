@@ -387,7 +387,10 @@ def test_the_foot_says_what_made_the_report():
     page = html_page([made_up_claim("mapping")], "quick", made)
     foot = re.search("<footer>(.*)</footer>", page)[1]
     assert "<code>python -m validation --quick --only mapping</code>" in foot
-    assert re.search(r"(at commit [0-9a-f]{12}( with edits)?|of no known commit), on \d{4}-\d\d-\d\d, in 2 min on \d+ cores? of", foot)
+    assert re.search(
+        r"(at commit [0-9a-f]{12}( with edits)?|of no known commit), on \d{4}-\d\d-\d\d, in 2 min on \d+ cores? of",
+        foot,
+    )
     assert platform.node() not in foot
     assert versions() in foot
     assert "the claims that answer this were not asked" in page.lower()

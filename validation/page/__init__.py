@@ -15,6 +15,7 @@ from validation.page.made import Made
 from validation.page.paper import EQ_15, PAPER, SYMBOLS
 from validation.report import Claim, write_record
 from validation.typeset import markup
+from validation.words import counted
 
 AS_IT_IS = Made()
 Groups = list[tuple[str, str, list[Claim]]]  #: title, what the group is about, and its claims
@@ -43,7 +44,7 @@ def html_page(claims: Sequence[Claim], effort: str = "full", made: Made = AS_IT_
         answers=_answers(answers(claims), claims),
         glance="\n".join(figure_of(claim, figure) for claim, figure in glance),
         count=count_of(sum(claim.n_held for claim in claims), sum(len(claim.checks) for claim in claims)),
-        n_claims=len(claims),
+        n_claims=counted(len(claims), "claim"),
         symbols="".join(_symbol(*one) for one in SYMBOLS.items()),
         equations=equations_of(PAPER),
         groups="\n".join(group_of(*group, above=[figure for _, figure in glance]) for group in groups),
@@ -95,8 +96,10 @@ def _marks(claims: Sequence[Claim], effort: str, made: Made) -> str:
 
 def _answers(sentences: Sequence[str], claims: Sequence[Claim]) -> str:
     if not sentences:
-        said = "".join(f'<li><a href="#{one.name}">{markup(one.title)}</a>: {markup(one.sentence)}</li>' for one in claims)
-        return f"<p>The claims that answer this were not asked in this run. Those that were say:</p><ul class=answers>{said}</ul>"
+        links = (f'<a href="#{one.name}">{markup(one.title)}</a>: {markup(one.sentence)}' for one in claims)
+        said = "".join(f"<li>{link}</li>" for link in links)
+        others = "The claims that answer this were not asked in this run. Those that were say:"
+        return f"<p>{others}</p><ul class=answers>{said}</ul>"
     items = "".join(f"<li>{markup(text)}</li>" for text in sentences)
     springs = "Arrays of springs, each of which sticks, slips and leaves contact on its own, answer:"
     return f"<p>{springs}</p><ol class=answers>{items}</ol>"

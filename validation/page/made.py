@@ -41,8 +41,8 @@ class Made:
         took = "" if self.seconds is None else f", in {ceil(self.seconds / 60)} min"
         kept = f"; {self.n_kept} of the claims by a run before, which was stopped" if self.n_kept else ""
         return (
-            f"Made by <code>{escape(self.command(claims, effort))}</code> {commit()}, on {datetime.now(UTC):%Y-%m-%d}{took} on "
-            f"{escape(machine())}, with {versions()}{kept}."
+            f"Made by <code>{escape(self.command(claims, effort))}</code> {commit()}, on {datetime.now(UTC):%Y-%m-%d}"
+            f"{took} on {escape(machine())}, with {versions()}{kept}."
         )
 
 
