@@ -9,7 +9,7 @@ from itertools import zip_longest
 import mdr
 from mdr.case.paths import facts_at
 from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
-from mdr.commands.output import Exit, answer, in_shell, picked, refusals
+from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.find import OF_RUN, searched_path
 from mdr.given.case_file import Said
@@ -47,7 +47,7 @@ def find(args: argparse.Namespace, asked: Said) -> int:
     values = {**picked(found, "path", "values", "mean_F_N", "why"), "unit": unit, "power": spent}
     told = ["" if one is None else ", power {}: {}".format(*power_text(one)) for one in spent]
     lines = zip_longest(str(found).splitlines(), told, fillvalue="")
-    answer(args, values, in_shell("\n".join(map("".join, lines))), asked.case)
+    answer(args, values, "\n".join(map("".join, lines)), asked.case)
     return Exit.DONE if found.values else Exit.FAILED
 
 

@@ -73,6 +73,8 @@ def answer(args: argparse.Namespace, values: dict[str, Any], text: str, case: md
         head = {"version": mdr.__version__, "command": args.command, "made_with": versions()}
         head |= {"case": mdr.write_case(case)} if case is not None else {}
         text = json.dumps(_plain({**head, **values}), indent=1, allow_nan=False, ensure_ascii=False)
+    else:
+        text = in_shell(text)
     try:
         print(text, flush=True)
     except BrokenPipeError:

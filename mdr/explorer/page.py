@@ -154,8 +154,9 @@ class Page:
 
     def _ask(self) -> None:
         """Ask for the pictures; those of the state before fade until they come."""
-        for part in self.faded.values():
-            part.styles = look.STALE
+        empty = {"curve": self.curve.word.visible, "springs": self.over_period.words[0].visible}
+        for name, part in self.faded.items():
+            part.styles = look.FRESH if empty[name] else look.STALE
         self.waits = True
         self._tell(COMPUTING)
         self.pictures.ask(self.state)

@@ -77,8 +77,8 @@ def _wrapped(name: str, value: str, meaning: str, names: int, wide: int) -> Iter
 
 
 def number(value: float, unit: str = "") -> str:
-    """A number of six digits, with its unit."""
-    return f"{value:.6g}{f' {unit}' if unit not in ('', '-') else ''}"
+    """A number of six digits, with its unit; or "infinite"."""
+    return "infinite" if value == np.inf else f"{value:.6g}{f' {unit}' if unit not in ('', '-') else ''}"
 
 
 def span(values: Any, unit: str = "") -> str:

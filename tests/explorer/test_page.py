@@ -40,10 +40,16 @@ def test_empty_pictures_say_what_they_wait_for_and_friction_begins_where_it_is_a
         for told in (COMPILING.format(7), NOTHING):
             page._wait(told)
             assert [one.text for one in words if one.visible] == [told] * 4
+        page._ask()
+        page.pictures.drop()
+        assert [part.styles["opacity"] for part in page.faded.values()] == ["1", "1"]  # words are read
         page._draw(at_once(state))  # what is known in closed form alone
         assert [one.visible for one in words] == [False, True, True, True]
         page._draw([*pictures_of(state)][-1])
         assert not any(one.visible for one in words)
+        page._ask()
+        page.pictures.drop()
+        assert [part.styles["opacity"] for part in page.faded.values()] == ["0.4", "0.4"]
         axis = page.curve.figure.y_range
         low, high = axis.start, axis.end
         assert 0 < low < high

@@ -142,6 +142,7 @@ def test_a_measured_velocity_shows_its_bracket_where_there_is_one():
 def test_numbers_are_cut_to_what_is_known():
     assert number(0.1234567, "m") == "0.123457 m"
     assert number(2.0, "-") == "2"
+    assert number(np.inf, "m/s") == "infinite"
     assert with_error(0.43864123, 4.6e-6) == "0.4386412 +- 4.6e-06"
     assert with_error(0.5, 0.0) == with_error(0.5, np.nan) == with_error(0.5, np.inf) == "0.5"
     assert with_error(np.nan, 0.1) == number(np.nan)

@@ -80,7 +80,7 @@ def _marks(claims: Sequence[Claim], effort: str, made: Made) -> str:
     if left := made.missing(claims):
         marks.append(
             f"<b>STOPPED</b> {len(claims)} of {len(claims) + left} claims are done, or it is still at work. The same"
-            f" command goes on from there: <code>{made.command(claims, effort)}</code>."
+            f" command, into the same folder, goes on from there: <code>{made.command(claims, effort)}</code>."
         )
     if effort == "quick":
         marks.append(
@@ -98,7 +98,7 @@ def _answers(sentences: Sequence[str], claims: Sequence[Claim]) -> str:
     if not sentences:
         links = (f'<a href="#{one.name}">{markup(one.title)}</a>: {markup(one.sentence)}' for one in claims)
         said = "".join(f"<li>{link}</li>" for link in links)
-        others = "The claims that answer this were not asked in this run. Those that were say:"
+        others = "The claims that answer this are not among those below, which say:"
         return f"<p>{others}</p><ul class=answers>{said}</ul>"
     items = "".join(f"<li>{markup(text)}</li>" for text in sentences)
     springs = "Arrays of springs, each of which sticks, slips and leaves contact on its own, answer:"
