@@ -74,8 +74,8 @@ def doubts_of_load(known: SlidingContact) -> Iterator[str]:
     m_z = load.m_z
     if load.dF_z > load.F_z0:
         yield (
-            f"the amplitude of the load, dF_z = {load.dF_z:.4g} N, is above its mean, F_z0 = {load.F_z0:.4g} N, so that "
-            "the load pulls up in part of each period; if this is not meant, the two may be swapped"
+            f"the amplitude of the load, dF_z = {load.dF_z:.4g} N, is above its mean, F_z0 = {load.F_z0:.4g} N, so "
+            "that the load pulls up in part of each period; if this is not meant, the two may be swapped"
         )
     if known.oscillation.knows_depth:
         grows = floquet_multiplier(known.indenter, known.material, load, known.oscillation.cycle)
