@@ -83,7 +83,7 @@ ABSURD = {
             "pull": mdr.RigidPull(),
             "shake": mdr.InPlaneOscillation(1256.6, 1e-6),
         },
-        r"the depth, 2.98e-07 m, is below the roughness of ground steel, .* take a rough face, RoughFace, or FromForce",
+        r"the depth, 2.98e-07 m, is below the roughness of machined steel, .* take a rough face, RoughFace",
     ),
     "an ultrasonic amplitude below the roughness": (
         {
