@@ -34,7 +34,7 @@ STRONGEST = 0.3  #: shear strength over the modulus, above that of any face
 LEAST_MU_0 = 1e-3  #: a joint, and ice that melts, are above it
 MOST_G = 1e6  #: acceleration over that of gravity; an ultrasonic horn reaches some 1e5
 METALLIC = 1e10  #: modulus [Pa], from that of bone and wood on, of solids on which asperities do not flatten
-ROUGHNESS, ASPERITY = 1e-6, 1e-5  #: of machined steel: height, and width of a contact that has many asperities [m]
+ROUGHNESS, ASPERITY = 5e-7, 1e-5  #: of machined steel: height, and width of a contact that has many asperities [m]
 ULTRASONIC = 2 * np.pi * 16e3  #: rad/s
 LEAST = 5e-4  #: amplitude over mean depth, chi and omega tau that have next to no effect
 HEAVIEST = 1e4  #: weight of the body over the mean load
@@ -212,7 +212,7 @@ def _of_roughness(known: SlidingContact) -> Iterator[str]:
     """Asperities of hard faces, where the depth, or an ultrasonic amplitude at little depth, is below their height."""
     depth = known.contact_depth
     wide = edge(known.indenter, depth)[0] > ASPERITY
-    if known.material.E_star < METALLIC or not wide or depth > 5 * ROUGHNESS:  # a fifth of the depth is hardly felt
+    if known.material.E_star < METALLIC or not wide or depth > 10 * ROUGHNESS:  # a tenth of the depth is not felt
         return
     lengths = {f"depth, {depth:.3g} m,": depth}
     given = [one for one in _moving(known) if one[0] != "the depth" or known.oscillation.load is None]
