@@ -57,7 +57,8 @@ class Offering:
         def __getitem__(self, index: Any) -> Any:
             own = vars(self)
             lists = [name for name, value in own.items() if isinstance(value, tuple) or getattr(value, "ndim", 0)]
-            way = " or ".join(f".{name}[{index!r}]" for name in lists[:2]) or f"its values, as .{next(iter(own))}"
+            names = "".join(f", as .{name}" for name in [*own][:1])
+            way = " or ".join(f".{name}[{index!r}]" for name in lists[:2]) or f"its values{names}"
             raise TypeError(f"{type(self).__name__} is no list; take {f'.{index}' if isinstance(index, str) else way}")
 
 
