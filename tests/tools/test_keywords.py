@@ -61,6 +61,6 @@ def test_a_result_is_no_list_and_says_the_way():
         CURVE["cof"]
     with pytest.raises(TypeError, match=r"Cone is no list; take its values, as .theta"):
         list(CASE.indenter)
-    with pytest.raises(TypeError, match="RigidPull is no list; take its values$"):
+    with pytest.raises(TypeError, match=r"RigidPull is no list; take its values$"):
         list(CASE.pull)
     assert np.array([CASE, CASE], dtype=object).shape == (2,)
