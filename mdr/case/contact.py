@@ -227,7 +227,7 @@ class SlidingContact(Record, Summarised):
         return self._passed_on(self.harmonics_across, across=True)
 
     def _passed_on(self, given: NDArray[np.complex128], across: bool) -> NDArray[np.complex128]:
-        if not given.size or self.pull.is_rigid or self.shake is None or self.shake.at == "tool":
+        if not given.size or not self.is_shaken_at_pull:
             return given
         _, c, k = self.pull.across if across else self.pull.coefficients
         n_omega = self.omega * np.arange(1, given.size + 1)
@@ -236,6 +236,39 @@ class SlidingContact(Record, Summarised):
         out[passed] = (k + 1j * n_omega[passed] * c) * H[passed] * given[passed]
         out[(given != 0) & ~np.isfinite(H)] = np.inf
         return out
+
+    def borne(self, k_xc: float, *, across: bool = False) -> NDArray[np.complex128]:
+        """Harmonics of the force that the contact bears while it sticks, and the body with it.
+
+        Parameters
+        ----------
+        k_xc : float
+            Tangential stiffness of the contact [N/m] at long times.
+        across : bool
+            Across the pull.
+
+        Returns
+        -------
+        ndarray
+            F_n [N], shape (N,), of n = 1 ... N: K P_n/(K + Z), with K the dynamic stiffness of the contact, Z that of
+            mass, spring and damper, and P_n what these pass on to a contact that does not yield. Infinite where an
+            undamped body resonates on its contact.
+        """
+        given = self.harmonics_across if across else self.shake_harmonics
+        _, c, k = self.pull.across if across else self.pull.coefficients
+        n_omega = self.omega * np.arange(1, given.size + 1)
+        K = k_xc * np.asarray(self.material.dynamic_modulus(n_omega)) / self.material.E_star
+        if np.isinf(k):
+            return np.asarray(K * given)
+        Z = self.pull.dynamic_stiffness(n_omega, across=across)
+        passed = (k + 1j * n_omega * c if self.is_shaken_at_pull else Z) * given
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(passed == 0, 0.0, np.where(K + Z == 0, np.inf, K * passed / (K + Z)))
+
+    @property
+    def is_shaken_at_pull(self) -> bool:
+        """Whether the shake reaches the body through a spring."""
+        return self.shake is not None and self.shake.at == "pull" and not self.pull.is_rigid
 
     @property
     def mirrored(self) -> SlidingContact:
@@ -359,15 +392,30 @@ class SlidingContact(Record, Summarised):
 
     @property
     def chi(self) -> float:
-        """du_x/(mu_0 kappa u_z0) [-], half the way of the shake over the deflection at which springs slip, that of the
-        middle one where the face has a shear strength; infinite for u_z0 <= 0.
+        """Amplitude of the shake over that at which every spring slips at rest [-]; infinite for u_z0 <= 0.
+
+        du_x/(mu_0 kappa u_z0), half the way of the tool over the deflection at which the middle spring slips. Of a
+        shaken pulling point half the way of the force that the contact bears while it sticks, over full friction.
         """
-        return _half_way(self.shake_harmonics, self.reach(self.working_depth))
+        return self._over_slip(across=False)
 
     @property
     def eta(self) -> float:
-        """du_y/(mu_0 kappa u_z0) [-], the same across the pull."""
-        return _half_way(self.harmonics_across, self.reach(self.working_depth))
+        """The same across the pull [-]; du_y/(mu_0 kappa u_z0) of the tool."""
+        return self._over_slip(across=True)
+
+    def _over_slip(self, across: bool) -> float:
+        depth = self.working_depth
+        if not self.is_shaken_at_pull:
+            return _half_way(self._harmonics(across), self.reach(depth))
+        return _half_way(self.borne(self.k_xc, across=across), self.full_friction)
+
+    @property
+    def full_friction(self) -> float:
+        """Friction [N] of a slide without vibration at the mean depth; zero for tapping with u_z0 <= 0."""
+        depth = max(self.working_depth, 0.0)
+        strength = self.tau_0 * np.pi * float(self.indenter.contact_radius(depth)) ** 2 if self.tau_0 else 0.0
+        return self.mu_0 * float(self.indenter.force(depth, self.material.E_star)) + strength
 
     def reach(self, depth: float) -> float:
         """Deflection [m] at which the spring in the middle slips.

@@ -66,10 +66,10 @@ SET = {
                        rule=not_negative, note="loss tangent", of=KelvinVoigt),
     "alpha": _sets("oscillation.du_z", "oscillation.cos", meaning="relative amplitude du_z/u_z0",
                    label=r"amplitude $\alpha = \Delta u_z/u_{z0}$"),
-    "chi": _sets("shake.du_x", label=r"amplitude $\chi$", meaning="amplitude along the pull over the deflection at "
-                 "which springs slip, du_x/(mu_0 kappa u_z0)"),
-    "eta": _sets("shake.du_y", label=r"amplitude across $\eta$", meaning="amplitude across the pull over the "
-                 "deflection at which springs slip, du_y/(mu_0 kappa u_z0)"),
+    "chi": _sets("shake.du_x", label=r"amplitude $\chi$", meaning="amplitude along the pull over that at which "
+                 "every spring slips at rest, of a tool du_x/(mu_0 kappa u_z0)"),
+    "eta": _sets("shake.du_y", label=r"amplitude across $\eta$", meaning="amplitude across the pull over "
+                 "that at which every spring slips at rest, of a tool du_y/(mu_0 kappa u_z0)"),
     "T": _sets("material.tau", meaning="omega tau, the loss tangent of a Kelvin material",
                label=r"loss tangent $T = \omega\tau$"),
     "k_x/k_xc": _sets("pull.k_x", meaning="stiffness of the system spring over that of the contact",

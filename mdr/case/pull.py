@@ -82,13 +82,30 @@ class Pull(Record, ABC):
             H [m/N] in the shape of omega; infinite on an undamped resonance.
         """
         omega = finite_array("omega", omega, "rad/s")
-        m, c, k = self.across if across else self.coefficients
-        if np.isinf(k):
+        if np.isinf((self.across if across else self.coefficients)[2]):
             return 0j if omega.ndim == 0 else np.zeros(omega.shape, dtype=complex)
-        dynamic_stiffness = k - m * omega**2 + 1j * omega * c
+        Z = self.dynamic_stiffness(omega, across=across)
         with np.errstate(divide="ignore", invalid="ignore"):
-            H = np.where(dynamic_stiffness == 0, complex(np.inf), 1 / dynamic_stiffness)
+            H = np.where(Z == 0, complex(np.inf), 1 / Z)
         return complex(H) if H.ndim == 0 else H
+
+    def dynamic_stiffness(self, omega: NDArray[np.float64], *, across: bool = False) -> NDArray[np.complex128]:
+        """Z(omega) = k - m omega² + i omega c [N/m] of a body that yields: 1/H, an oscillating force over displacement.
+
+        Parameters
+        ----------
+        omega : ndarray of float
+            Angular frequency [rad/s].
+        across : bool
+            Whether the force acts across the pull.
+
+        Returns
+        -------
+        ndarray
+            Z [N/m] in the shape of omega.
+        """
+        m, c, k = self.across if across else self.coefficients
+        return np.asarray(k - m * omega**2 + 1j * omega * c)
 
 
 @dataclass(frozen=True)

@@ -84,7 +84,7 @@ def static_cof(case: SlidingContact) -> float:
     if case.material.contact_arms and not followed(case).F_N.all():  # at some instant nothing presses
         least = 0.0
     elif case.material.contact_arms:
-        least = max(_least(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
+        least = max(least_of(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
         least = float(case.indenter.force(kept, case.material.E_star))
     held = 0.0
@@ -109,7 +109,7 @@ def _slips_at_any_pull(case: SlidingContact) -> bool:
     return bool(left.sum() <= SAME * case.material.mindlin_ratio * case.cycle.unit)
 
 
-def _least(values: Array) -> float:
+def least_of(values: Array) -> float:
     """Minimum over a period of equidistant values, by the parabola through the least one and its neighbours."""
     k = int(np.argmin(values))
     before, least, after = values[k - 1], values[k], values[(k + 1) % values.size]

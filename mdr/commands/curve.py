@@ -14,6 +14,7 @@ from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, no_scale, veloci
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of
 from mdr.commands.velocity import ends_of, v_c_text
 from mdr.commands.written import add_output, make_folder, write_found
+from mdr.tools.arrays import EXACT
 
 
 def add_options_of_curve(command: argparse.ArgumentParser) -> None:
@@ -66,8 +67,9 @@ def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[floa
         complain(f"{wrong}: velocities are multiples of {velocity_scale(case):.6g} m/s in its place")
     of = _v_c_or_scale if args.up_to else velocity_scale
     forward, back = (asked.number * (of(one) if asked.of else 1) for one in (case, case.mirrored))
-    found: list[float] = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS).tolist()
-    return found
+    found = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS)
+    found[np.abs(found) < EXACT * forward] = 0.0  # the limit at rest, and not a pull of a rounding
+    return list(map(float, found))
 
 
 def _v_c_or_scale(case: mdr.SlidingContact) -> float:

@@ -33,6 +33,8 @@ def velocity(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     contact = "kept" if known.keeps_contact else "lost in part of the period"
     amplitude = "amplitude of the depth over the mean depth, du_z/u_z0"
     shake, across = "amplitude of the shake over the deflection at which springs slip", "the same across the pull"
+    if known.is_shaken_at_pull:
+        shake = f"force that shakes the stuck contact, over full friction of {number(known.full_friction, 'N')}"
     tangent = "loss tangent of the material at omega; omega tau of a Kelvin body"
     groups = [("chi", known.chi, shake), *([("eta", known.eta, across)] if case.moves_across else [])]
     told = [
@@ -151,13 +153,16 @@ def ends_of(case: mdr.SlidingContact) -> list[Told]:
         return [
             Told("holding_band", None, "band", "not known", "at rest, with a shear strength: by Coulomb's law alone")
         ]
-    band, standing = mdr.holding_band(case), "mean F_x over mean F_z at rest, under a rigid pull that stands still"
+    from mdr.friction.shaken import holder_of
+
+    standing = f"mean F_x over mean F_z at rest, under {holder_of(case)}"
+    band, span, standing = _asked(lambda: mdr.holding_band(case), _span, standing)
     blocked, force, own = _asked(lambda: _at_rest(case), _span, "the same under its own pull, standing still")
     unloaded = "velocity at which it runs by itself, where no force holds it"
     free, velocity, alone = _asked(lambda: mdr.no_load_velocity(case), velocity_text, unloaded)
     held = None if isinstance(blocked, float | str) else blocked
     return [
-        Told("holding_band", [band.low, band.high], "band", _span(band), standing),
+        Told("holding_band", None if isinstance(band, str) else [band.low, band.high], "band", span, standing),
         Told("blocked_cof", None if held else blocked, "blocked", force, own),
         *([Told("blocked_band", [held.low, held.high])] if held else []),
         Told("no_load_velocity", free, "no load", velocity, alone),

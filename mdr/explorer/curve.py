@@ -29,7 +29,7 @@ def curve_legend(picture: Picture, before: bool) -> str:
             stroke("under a rigid pull", f"border-top:2px dashed {DARK}") if picture.rigid is not None else "",
             swatches(("across", COLOURS[4])) if picture.state.case.moves_across else "",
             stroke("v<sub>c</sub>", f"border-left:2px dotted {DARK}") if known else "",
-            swatches(("held at rest by a rigid pull", COLOURS[2])) if picture.band else "",
+            swatches(("held at rest", COLOURS[2])) if picture.band else "",
         ]
     )
 

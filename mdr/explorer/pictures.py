@@ -16,7 +16,7 @@ from mdr.closed_forms.critical_velocity import POINTS, UP_TO, critical_velocity,
 from mdr.closed_forms.full_slip import static_cof
 from mdr.explorer.state import DECADE, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
-from mdr.friction.shaken import HoldingBand, holding_band
+from mdr.friction.shaken import HoldingBand, holder_of, holding_band
 from mdr.march.periodic.steady import LEAST_ACCURATE
 from mdr.march.result.run import SlidingRun
 from mdr.march.result.slide import slide
@@ -66,7 +66,7 @@ class Picture:
         elif self.static is not None:
             rows.append(("static COF", f"{self.static:.4g}", "limit of friction as v_0 → 0"))
         if self.band is not None:
-            held = "mean F_x over F_z at rest, under a rigid pull that stands still"
+            held = f"mean F_x over F_z at rest, under {holder_of(known)}"
             rows.append(("band", f"{self.band.low:.4g} to {self.band.high:.4g}", held))
         cof = across = stick = WAITS
         if run is not None:

@@ -18,10 +18,11 @@ from mdr.case.coulomb import greatest
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
+from mdr.closed_forms.held_body import held_forward
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.closed_forms.shaken_pull import ShakenPull, has_closed_form
 from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
-from mdr.march.periodic.steady import BUDGET, Resolution, accuracy_of
+from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, Resolution, accuracy_of
 from mdr.march.periodic.theorems import disordered
 from mdr.march.result.refinement import resolution_of
 from mdr.march.result.run import finish
@@ -345,22 +346,37 @@ def _from_rest_on(case: SlidingContact, v_0: Array, friction: Friction) -> Colum
 
 
 def _at_rest(case: SlidingContact, friction: Friction) -> Point:
-    """The limit of a pull ever slower forward.
+    """The limit of a pull ever slower forward: of a body that is held, by the forces that hold it, unless runs know
+    more.
+    """
+    if (held := held_forward(case)) is None:
+        return _slow(case, friction, is_held=False)
+    known = held.cof, held.error, True, 1.0, "", held.cof_y
+    return known if held.error <= LEAST_ACCURATE * case.mu_0 else min(_slow(case, friction, True), known, key=_error)
 
-    A body with mass, or arms, end a run at rest wherever they came to within the band of a shaken contact; there two
-    slow runs tell the limit, to which friction falls like a power of the velocity between 2/3 and 1.
+
+def _error(point: Point) -> float:
+    return point[1]
+
+
+def _slow(case: SlidingContact, friction: Friction, is_held: bool) -> Point:
+    """The same, in closed form or by slow runs; is_held: of a body that creeps under what it is not held by.
+
+    A body with mass, or arms, end a run at rest wherever they came to within the band of a shaken contact, and a body
+    comes to it ever slower where an edge moves or a dashpot yields. There two slow runs tell the limit, to which
+    friction falls like a power of the velocity between 2/3 and 1, of a body that is held from 1/2 on.
     """
     if case.moves_across:
         if is_across_alone(case) and not case.tau_0:
             return static_cof(case), EXACT * case.mu_0, True, 1.0, "", 0.0
         # shaken across, a contact comes to rest by ever smaller slips: less slow
-        return _slow_limit(friction(case, np.array([1e-3, 1e-2]) * case.pace))
+        return _slow_limit(friction(case, np.array([1e-3, 1e-2]) * case.pace), is_held)
     if not case.is_shaken:
         # arms are followed spring by spring, to this share of mu_0
         error = 5e-6 if case.material.contact_arms else EXACT
         return static_cof(case), (error + case.cycle.missing) * full_cof(case), True, 1.0, "", 0.0
-    if case.material.contact_arms or case.pull.coefficients[0] > 0:
-        return _slow_limit(friction(case, np.array([1e-5, 1e-4]) * case.pace))
+    if case.material.contact_arms or case.pull.coefficients[0] or (is_held and (case.T or case.edge_moves)):
+        return _slow_limit(friction(case, np.array([1e-5, 1e-4]) * case.pace), is_held)
     cof, error, settled, sticks, why, _ = (column[0] for column in friction(case, np.zeros(1)))
     return cof, error, settled, sticks, "" if settled else why, 0.0  # a start at one end of the band ends there
 
@@ -374,13 +390,16 @@ def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     return Columns.exact(case.mu_0 * cof, case.mu_0 * (error + case.cycle.missing), sticks)
 
 
-def _slow_limit(runs: Columns) -> Point:
-    """The limit of two slow runs, velocities ten apart: a power 1 leaves 1/9 of their difference, a power 2/3 1/3.6."""
+def _slow_limit(runs: Columns, is_held: bool) -> Point:
+    """The limit of two slow runs, velocities ten apart: a power 1 leaves 1/9 of their difference, 2/3 1/3.6, 1/2 1/2.2,
+    which is that of a body that is held.
+    """
+    share, spread = (0.28, 0.23) if is_held else (1 / 6, 0.15)
     (slower, faster), (slow_y, fast_y) = runs.cof, runs.cof_y
     apart, aside = faster - slower, fast_y - slow_y
-    bound = runs.cof_error[0] + (runs.cof_error[0] + runs.cof_error[1]) / 6 + 0.15 * max(abs(apart), abs(aside))
+    bound = runs.cof_error[0] + (runs.cof_error[0] + runs.cof_error[1]) * share + spread * max(abs(apart), abs(aside))
     settled, why = bool(runs.settled.all()), runs.why[0] or runs.why[1]
-    return slower - apart / 6, bound, settled, runs.stick_share[0], why, slow_y - aside / 6
+    return slower - share * apart, bound, settled, runs.stick_share[0], why, slow_y - share * aside
 
 
 def _runs(

@@ -15,6 +15,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.case.coulomb import of_coulomb
 from mdr.case.pull import RigidPull
+from mdr.closed_forms.held_body import held_forward
 from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import cof_curve
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
@@ -58,7 +59,8 @@ class HoldingBand:
 def holding_band(case: SlidingContact) -> HoldingBand:
     """Loads [-], mean F_x over mean F_z, that a contact holds at rest, neither creeping nor driving.
 
-    The contact is held rigidly: a spring pull yields nothing here, and a shake acts on the indenter as it is given.
+    A shaken tool is held rigidly, whatever the pull. Where the pulling point is shaken it is the body that is held, by
+    its spring: what the contact bears while it sticks is what spring and damper pass on.
 
     Parameters
     ----------
@@ -92,7 +94,13 @@ def holding_band(case: SlidingContact) -> HoldingBand:
     >>> print(f"{band.low:.4f} to {band.high:.4f}")  # springs slip at 12e-6 m, of which the shake takes 5e-6
     -0.2333 to 0.2333
     """
-    return band_of_pull(replace(resolved(case), pull=RigidPull()))
+    case = resolved(case)
+    return band_of_pull(case if case.is_shaken_at_pull else replace(case, pull=RigidPull()))
+
+
+def holder_of(case: SlidingContact) -> str:
+    """What holds the contact in `holding_band`, in words."""
+    return "its own pull, whose far end is shaken" if case.is_shaken_at_pull else "a rigid pull that stands still"
 
 
 @remembered(maxsize=16)  # a command asks for it more than once
@@ -145,7 +153,7 @@ def blocked_cof(case: SlidingContact) -> float:
     if not band.is_one_number:
         raise ValueError(
             f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
-            "rest is no single number, and depends on how it came to rest (holding_band has it held rigidly)"
+            "rest is no single number, and depends on how it came to rest"
         )
     return float(beyond(EXACT * case.mu_0, 0.5 * (band.low + band.high)))
 
@@ -185,10 +193,13 @@ def no_load_velocity(case: SlidingContact) -> float:
 
 @remembered(maxsize=16)
 def _free(case: SlidingContact) -> float:
-    if not np.isfinite(case.pace):
-        raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
     if case.is_alike_both_ways:
         return 0.0  # as the friction of a pull the other way is its mirror image
+    ends = [held_forward(one) for one in (case, case.mirrored)]
+    if all(end is not None and end.cof > end.error for end in ends):
+        return 0.0
+    if not np.isfinite(case.pace):
+        raise ValueError("the pulling point is shaken at the undamped natural frequency of the body: add c_x")
     # where the velocity of a contact that drives is looked for first
     low = 1e-3 * case.pace
     side = next((way for way, one in ((1, case), (-1, case.mirrored)) if _cof(one, low) < 0), 0)

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 HOLDS = (
     "the contact holds: at rest it may stay in many states, of which this is one, and cof_error is the error of this "
-    "one alone; ask holding_band(case) for all that it holds"
+    "one alone; ask {}(case) for all that it holds"
 )
 
 
@@ -44,7 +44,8 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     """Outcome of slide(), in SI. Arrays are kept only with `record`; otherwise they are None.
 
     A run at v_0 = 0 whose contact holds may come to rest in many states (`kind` "holds"): `cof` is that of one of them,
-    and `cof_error` does not bound how far the others are from it; `holding_band` tells all.
+    and `cof_error` does not bound how far the others are from it; `holding_band` tells all, and of a body on a spring
+    `blocked_cof` does.
 
     Recorded forces are those at the end of a step; `cof` is of their exact mean over each step, so that mean F_x over
     mean F_z of the record differs from it, by less the more steps there are.
@@ -224,7 +225,8 @@ def finish(end: MarchEnd) -> SlidingRun:
     sticks = account.stick_share
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     if settling.settled and may_rest_elsewhere(end, account):
-        kind, why = "holds", "; ".join(filter(None, (HOLDS, why)))
+        holds = HOLDS.format("holding_band" if case.pull.is_rigid else "blocked_cof")
+        kind, why = "holds", "; ".join(filter(None, (holds, why)))
     return SlidingRun(
         cof=full * cof,
         cof_y=full * across,
