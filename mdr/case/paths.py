@@ -9,6 +9,7 @@ dimensionless group or what a rig is set to. The way there and back, for which a
     [oscillation]  frequency = 50      for omega [rad/s], in Hz; so in [shake]
     [oscillation]  load = 1.0          for F_z0 [N]; of a prescribed depth for u_z0, at which this load rests, or with
                    hold = "load"       about which it is the mean load
+    [oscillation]  support_acceleration = 5    for dF_z [N]: of what the half-space or a mass on it stands on, in m/s²
 """
 
 from __future__ import annotations
@@ -64,6 +65,8 @@ SET = {
                        in_field=lambda frequency: 2 * math.pi * frequency),
     "tan_delta": _sets("material.tau", meaning="loss tangent at the frequency", label=r"loss tangent $\tan\delta$",
                        rule=not_negative, note="loss tangent", of=KelvinVoigt),
+    "support_acceleration": _sets("oscillation.dF_z", unit="m/s²", note="in m/s²",
+                                  meaning="amplitude of the acceleration of what a mass stands on"),
     "alpha": _sets("oscillation.du_z", "oscillation.cos", meaning="relative amplitude du_z/u_z0",
                    label=r"amplitude $\alpha = \Delta u_z/u_{z0}$"),
     "chi": _sets("shake.du_x", label=r"amplitude $\chi$", meaning="amplitude along the pull over that at which "
@@ -78,9 +81,10 @@ SET = {
                            label=r"natural frequency $\omega_0/\omega$"),
     "theta_deg": _sets("indenter.theta", unit="deg", meaning="angle in degrees", in_field=math.radians),
 }  # fmt: skip
-RIG = ("load", "frequency", "tan_delta")  #: what rigs are set to
+RIG = ("load", "frequency", "tan_delta", "support_acceleration")  #: what rigs are set to
 GROUPS = ("alpha", "chi", "eta", "T", "k_x/k_xc", "omega_0/omega")  #: in the order in which they are set
-OPEN = ("u_z0", "tau")  #: fields that other parts decide about too: load, tan_delta hold for them in a whole study
+#: fields that others decide about too: load, tan_delta, support_acceleration hold for them in a whole study
+OPEN = ("u_z0", "tau", "dF_z")
 HOLD = "hold"  #: beside a load: whether the depth at which it rests stays, or the mean load
 VELOCITIES = {
     "v_0": facts("m/s", "pulling velocity", label="pulling velocity $v_0$")["facts"],

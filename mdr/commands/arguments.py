@@ -154,6 +154,11 @@ def quantity(name: str, unit: str, of: str = "") -> Callable[[str], Asked]:
 
     def read(text: str) -> Asked:
         number, symbol = parted(text)
+        if of == OF_MU_0 and symbol == "%":
+            raise argparse.ArgumentTypeError(
+                f"a COF in per cent may be of the load or of mu_0, got {text!r}: give --share {text} for that of the "
+                f"friction without vibration, or the COF itself, as 0.2 or 0.7{OF_MU_0}"
+            )
         try:
             if of and symbol == of:
                 return Asked(number_in(number), of)

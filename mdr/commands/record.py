@@ -49,7 +49,7 @@ def record(args: argparse.Namespace, _: None) -> int:
         found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {fault}") from None
-    values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "late_cof", "mean_F_z", "n_springs")
+    values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "late_cof", "loss_cof", "mean_F_z", "n_springs")
     spent = found.energy_balance
     values["energy_balance"] = {**asdict(spent), "lost": spent.lost}
     whole, kept = (float(t[-1] - t[0]) for t in (recorded["t"], found.t))

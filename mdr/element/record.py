@@ -80,16 +80,30 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
         x, z = (float(np.trapezoid(F[late], self.t[late])) for F in (self.F_x, self.F_z))
         return x / z if z > 0 else float("nan")
 
+    @property
+    def loss_cof(self) -> float:
+        """Work in the plane over load and way [-], that is the integral of F_x dx + F_y dy over that of F_z |ds|.
+
+        Of a stroke to and fro it is the coefficient of friction, where `cof`, the mean of both ways, is about zero. It
+        counts what springs store too, which a way that is long beside their deflection makes small. NaN where nothing
+        moves in contact.
+        """
+        borne = float(0.5 * (self.F_z[1:] + self.F_z[:-1]) @ np.hypot(np.diff(self.u_x), np.diff(self.u_y)))
+        return self.energy_balance.plane_work / borne if borne > 0 else float("nan")
+
     def _summary(self) -> Summary:
         spent = self.energy_balance
+        turns = np.abs(np.diff(self.u_x)).sum() > abs(self.u_x[-1] - self.u_x[0]) * (1 + EXACT)
+        means = "mean F_x/mean F_z, both ways together" if turns else "mean F_x/mean F_z, with the way from rest"
         return Summary(
             f"SlideRecord of {self.t.size} samples, {number(self.t[-1] - self.t[0], 's')}",
             [
                 (
                     "COF",
                     with_error(self.cof, self.cof_error),
-                    f"mean F_x/mean F_z, with the way from rest; mu_0 = {number(self.mu_0)}",
+                    f"{means}; mu_0 = {number(self.mu_0)}",
                 ),
+                *([("COF, loss", number(self.loss_cof), "work in the plane over load and way")] if turns else []),
                 ("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z"),
                 ("COF, late", number(self.late_cof), "of the second half of the record alone"),
                 ("depth", span(self.u_z, "m"), ""),

@@ -260,7 +260,8 @@ class _Table:
                 said, wrong = tried(_number_at, key, value, setting or units.get(key, ""))
                 faults += wrong
                 spoilt |= {field} if wrong else set()
-                given |= {} if wrong else {field: said}  # a stand-in for what is held: a number above zero
+                # a stand-in for what is held: a number above zero that lifts nothing off
+                given |= {} if wrong else {field: min(1e-99, said) if setting and field in OPEN else said}
                 held |= {key: said} if setting and field in OPEN and not wrong else {}
         given.pop(self.choice, None)
         if HOLD in table and self.name == "oscillation":

@@ -6,6 +6,7 @@ is known only after its depth, and then its faults are told together with those 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from os import PathLike, fsdecode
 from typing import Any, NamedTuple
@@ -137,7 +138,15 @@ def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapp
         warn_outside(
             "[pull] says no mass: give m in kg, or m = 0 for a body without inertia, which is what is computed"
         )
-    m = case.pull.coefficients[0]
+    m, motion = case.pull.coefficients[0], case.oscillation
+    if "support_acceleration" in content["oscillation"]:
+        silent = "m_z" not in content["oscillation"] and isinstance(motion, LoadOscillation)
+        if m > 0 and silent and not math.isclose(m, motion.m_z, rel_tol=0.01):
+            warn_outside(
+                f"the load is taken for the weight of a mass of {motion.m_z:.6g} kg, and the body has m = {m:.6g} kg: "
+                "give m_z, the mass that moves up and down"
+            )
+        return
     silent = "m_z" not in content["oscillation"] and "oscillation.m_z" not in axes
     if m > 0 and isinstance(case.oscillation, LoadOscillation) and silent:
         warn_outside(

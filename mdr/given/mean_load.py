@@ -58,7 +58,7 @@ def _that_can_be(at: Callable[[float], SlidingContact], low: float, high: float)
     return (good, high, of_low) if of_low else (low, good, of_high)
 
 
-def warn_of_mean_loads(found: Sequence[tuple[float, float]], where: str = "") -> None:
+def warn_of_mean_loads(found: Sequence[tuple[float, float]], where: str = "", way_out: str = "") -> None:
     """Warn where a mean load [N] is another than the load [N] that was asked for: pairs (asked for, found)."""
     # a difference of less than 1 % is left without a word
     off = [(mean / asked, asked, mean) for asked, mean in found if abs(mean / asked - 1) > 0.01]
@@ -68,5 +68,5 @@ def warn_of_mean_loads(found: Sequence[tuple[float, float]], where: str = "") ->
     at, upto = (where.format(n=len(off), of=len(found)), "up to " if len(off) > 1 else "") if where else ("", "")
     warn_outside(
         f"{at}the mean load is {upto}{ratio:.3g} times the load of {asked:.4g} N ({mean:.4g} N), as the depth where it "
-        'rests is held: right for a stiff drive; for a weight, which stays, give hold="load"'
+        f'rests is held: right for a stiff drive; for a weight, which stays, give hold="load"{way_out}'
     )

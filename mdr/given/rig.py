@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from mdr.case.contact import SlidingContact
 from mdr.case.doubts import edge, wavelength
 from mdr.case.in_plane import Shake
@@ -17,7 +19,8 @@ from mdr.case.pull import Pull, RigidPull, SpringPull
 from mdr.given.vary import contact_of, warn_of_load
 from mdr.indenters.base import Indenter
 from mdr.materials import Elastic, KelvinVoigt, Material
-from mdr.normal.resolved import at_rest
+from mdr.normal.normal_force import normal_force
+from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import instance, not_negative, positive
 from mdr.tools.keywords import offering
@@ -38,6 +41,7 @@ def rig(
     load_amplitude: float | None = None,
     depth_amplitude: float | None = None,
     acceleration: float | None = None,
+    support_acceleration: float | None = None,
     tan_delta: float | None = None,
     k_x: float | None = None,
     m: float | None = None,
@@ -64,10 +68,12 @@ def rig(
     load, load_grams : float
         Load [N], or the mass [g] whose weight it is. Give one. With an amplitude of the load, or a shake alone, it is
         the mean load. With an amplitude of depth or acceleration it is what `hold` says.
-    load_amplitude, depth_amplitude, acceleration : float, optional
+    load_amplitude, depth_amplitude, acceleration, support_acceleration : float, optional
         What the normal vibration is set to; give one, or none where `shake` moves the contact in the plane alone.
-        Amplitude of the load [N]; amplitude of the depth [m]; or amplitude of the normal acceleration of the indenter
-        [m/s²], which is (2 pi frequency)² times that of the depth.
+        Amplitude of the load [N]; amplitude of the depth [m]; amplitude of the acceleration of the indenter against
+        the half-space [m/s²], which is (2 pi frequency)² times that of the depth; or amplitude of the acceleration [m/s²]
+        of a support, such as a shaken table, on which the one body stands and the other, a mass, lies by its weight: its
+        normal force is m (g + a) well below the resonance of the mass on the contact. Upwards at its greatest at t = 0.
     tan_delta : float, optional
         Loss tangent [-] at this frequency. It turns an `Elastic` material, whose E then is the storage modulus, into
         the `KelvinVoigt` material that has it.
@@ -81,6 +87,8 @@ def rig(
     load_rides : bool, optional
         Whether an oscillating load presses on the sled, so that the sled's mass moves in the normal direction too. Must
         be said where there are both, and only there. `load` then is all that presses, the weight of the sled included.
+        On a shaken support: whether all that presses is a mass that lies on it, which is so unless a sled of another
+        weight is given; False is a sled of mass m that a soft spring presses on.
     shake : Shake, optional
         Motion in the plane besides the pull; where nothing else vibrates, at this frequency.
     hold : {None, "depth", "load"}
@@ -94,7 +102,7 @@ def rig(
     Returns
     -------
     SlidingContact
-        The contact. With an amplitude of the load, a `LoadOscillation`; with one of depth or acceleration, a
+        The contact. With an amplitude of the load, or of a support, a `LoadOscillation`; with one of depth or acceleration, a
         `NormalOscillation` about the depth that `hold` asks for; with none, a `ConstantLoad`.
 
     Raises
@@ -128,7 +136,10 @@ def rig(
     material = _lossy(material, tan_delta, omega)
     instance("indenter", indenter, Indenter)
     F_z0 = _load(load, load_grams)
-    given = {"load_amplitude": load_amplitude, "depth_amplitude": depth_amplitude, "acceleration": acceleration}
+    given = {
+        "load_amplitude": load_amplitude, "depth_amplitude": depth_amplitude, "acceleration": acceleration,
+        "support_acceleration": support_acceleration,
+    }  # fmt: skip
     amplitudes = {
         name: positive(name, value, "leave it out for a shake alone")
         for name, value in given.items()
@@ -137,17 +148,23 @@ def rig(
     if len(amplitudes) > 1:
         raise ValueError(f"{' and '.join(amplitudes)} are given: give one of them, the others follow")
     held = {} if hold is None else {HOLD: hold_of(hold)}
-    if held and not (amplitudes and load_amplitude is None):
+    by_force = load_amplitude is not None or support_acceleration is not None
+    if held and (by_force or not amplitudes):
         raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
     pull = _pull(k_x, m, c_x)
-    m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
+    if support_acceleration is None:
+        m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
+    else:
+        m_z = _on_support(m, load_rides, F_z0)
     if not amplitudes and (shake is None or not math.isclose(shake.omega, omega, rel_tol=SAME)):
         raise ValueError(
             f"nothing vibrates at the frequency of {frequency:.6g} Hz: give one of {', '.join(given)}, or a shake in "
             f"the plane with omega = 2 pi frequency = {omega:.9g} rad/s"
         )
     motion: Motion = ConstantLoad(F_z0)
-    if load_amplitude is not None:
+    if support_acceleration is not None:
+        motion = LoadOscillation(F_z0, m_z * support_acceleration, omega, m_z)
+    elif load_amplitude is not None:
         motion = LoadOscillation(F_z0, load_amplitude, omega, m_z)
     elif amplitudes:
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
@@ -155,7 +172,11 @@ def rig(
     parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
     settings = {"mu_0": mu_0, "tau_0": tau_0, "load": F_z0, **held}
     case = contact_of(parts, settings)
-    warn_of_load(settings, case)
+    way_out = ""
+    if acceleration is not None:
+        way_out = "; for the acceleration of what a weight stands on, a shaken table, give it as support_acceleration"
+        _warn_of_drive(case, F_z0 / GRAVITY * acceleration, way_out if held else "")
+    warn_of_load(settings, case, way_out=way_out)
     if density is not None:
         _warn_of_waves(case, positive("density", density, "in kg/m³"))
     return case
@@ -213,6 +234,31 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
             "the load is all that presses, the weight of the sled included"
         )
     return moved if rides else 0.0
+
+
+def _on_support(m: float | None, rides: bool | None, F_z0: float) -> float:
+    """The mass [kg] that lies on a shaken support."""
+    if rides is not None and not isinstance(rides, bool):
+        raise TypeError(f"load_rides must be True or False, got {rides!r}")
+    weighs, moved = F_z0 / GRAVITY, not_negative("m", m, "mass in kg") if m is not None else 0.0
+    if rides is False:
+        return positive("m", moved, "mass in kg of the sled that lies on the support; or load_rides=True")
+    if rides is None and moved > 0 and not math.isclose(moved, weighs, rel_tol=0.01):
+        raise ValueError(
+            f"the load is the weight of {weighs:.6g} kg, and the sled has m = {moved:.6g} kg: say load_rides=True where "
+            "all that presses lies on the support with its mass, or load_rides=False where a soft spring presses the sled"
+        )
+    return weighs
+
+
+def _warn_of_drive(case: SlidingContact, inertia: float, way_out: str) -> None:
+    """Warn of a weight that is said to ride on a driven depth whose force is not that of its inertia [N]."""
+    force = normal_force(known := resolved(case), np.linspace(0, 2 * np.pi, 64)) if way_out else np.zeros(1)
+    if (swing := float(np.ptp(force)) / 2) > 2 * inertia:
+        warn_outside(
+            f"acceleration= is that of the indenter against the half-space: a depth of +-{known.cycle.du_z:.3g} m, which "
+            f"takes a drive of +-{swing:.3g} N, where the weight alone has +-{inertia:.3g} N at that acceleration{way_out}"
+        )
 
 
 def _warn_of_waves(case: SlidingContact, density: float) -> None:

@@ -3,8 +3,8 @@
 alpha = du_z/u_z0 sets oscillation.du_z, or the amplitudes of a series together, chi = du_x/(mu_0 kappa u_z0)
 shake.du_x, eta = du_y/(mu_0 kappa u_z0) shake.du_y, T = omega tau material.tau, k_x/k_xc pull.k_x, and omega_0/omega
 = sqrt(k_x/m)/omega pull.m. Of what a rig is set to, load [N] sets F_z0, or of a prescribed depth u_z0, at which this
-load rests, or beside hold = "load" about which it is the mean load; frequency [Hz] sets omega of all that moves; and
-tan_delta = omega tau sets material.tau.
+load rests, or beside hold = "load" about which it is the mean load; frequency [Hz] sets omega of all that moves;
+tan_delta = omega tau sets material.tau; and the acceleration of the support of a mass sets dF_z and m_z.
 
 All fields of a record are set together, so that only the record as a whole has to be sound. The stiffness that k_x/k_xc
 refers to is solved for under a load, which is why this stands above the normal problem.
@@ -30,6 +30,7 @@ from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import positive
 from mdr.tools.fields import fields_of
+from mdr.tools.notation import GRAVITY
 
 MOVING = ("oscillation", "shake")
 
@@ -58,10 +59,10 @@ def load_asked(settings: Mapping[str, Any], case: SlidingContact) -> float | Non
     return settings.get("load") if driven else None
 
 
-def warn_of_load(settings: Mapping[str, Any], case: SlidingContact, where: str = "") -> None:
+def warn_of_load(settings: Mapping[str, Any], case: SlidingContact, where: str = "", way_out: str = "") -> None:
     """Warn where the mean load of the case is another than the load whose depth at rest these settings gave it."""
     if (asked := load_asked(settings, case)) is not None:
-        warn_of_mean_loads([(asked, mean_normal_force(case))], where)
+        warn_of_mean_loads([(asked, mean_normal_force(case))], where, way_out)
 
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
@@ -99,6 +100,9 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
             changes["oscillation"]["u_z0"] = rest
             if hold == "load":
                 return _under_mean_load(parts, settings, changed("oscillation"), load, rest)
+    if "support_acceleration" in settings:
+        _require_field("support_acceleration", parts["oscillation"], "dF_z")
+        changes["oscillation"] |= _of_support(parts["oscillation"], changes["oscillation"], settings)
     if "alpha" in settings and isinstance(parts["oscillation"], PeriodicMotion):
         series = changed("oscillation")
         if settings["alpha"] * series.u_z0 <= 0:
@@ -115,6 +119,17 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         if path in settings and of.field is not None:
             contact = _with(contact, path, of.field(contact, path, settings[path]))
     return contact
+
+
+def _of_support(motion: Any, changes: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, float]:
+    """Amplitude of the load [N] and mass [kg] of what stands on a support that is accelerated: m_z u_z'' = F_z0 + m_z a
+    - F_N, seen from there. A mass that is not given, or whose weight is the load, is that of the load.
+    """
+    a = SET["support_acceleration"].checked("support_acceleration", settings["support_acceleration"])
+    load, m_z = changes.get("F_z0", motion.F_z0), changes.get("m_z", motion.m_z)
+    if m_z == 0 or math.isclose(m_z * GRAVITY, motion.F_z0, rel_tol=SAME):
+        m_z = load / GRAVITY
+    return {"m_z": m_z, "dF_z": m_z * a}
 
 
 def _under_mean_load(
@@ -192,6 +207,12 @@ def _load(case: SlidingContact) -> float:
     return static_load(case.indenter, case.material, motion.u_z0) if load is None else float(load)
 
 
+def _of_load(case: SlidingContact) -> float:
+    motion: Any = as_given(case).oscillation
+    _require_field("support_acceleration", motion, "dF_z")
+    return float(motion.dF_z / motion.m_z) if motion.m_z else np.inf
+
+
 def _stiffness_ratio(case: SlidingContact) -> float:
     known = at_rest(case)
     return known.pull.coefficients[2] / known.k_xc if known.k_xc else np.inf
@@ -241,6 +262,7 @@ class _Path(NamedTuple):
 _PATHS = {
     "frequency": _Path(lambda case: _common_omega(case, "frequency") / (2 * math.pi)),
     "load": _Path(_load),
+    "support_acceleration": _Path(_of_load),
     "alpha": _Path(lambda case: resolved(case).alpha),
     "tan_delta": _Path(lambda case: _common_omega(case, "tan_delta") * float(getattr(case.material, "tau", 0.0)), _tau),
     "T": _Path(lambda case: case.T, _tau),
