@@ -268,7 +268,7 @@ CALLS = [
         "unit": [(None, "must be a string")], "of": [(3.0, "must be a function")], "per_velocity": FLAG}),
     (mdr.sweep, {"case": CASE, "axes": {"v_0": [1e-3]}, "store": None}, {
         "axes": [({}, "must name at least one path"), (["v_0"], "must map paths to values"), ({3: [1.0]}, "quotes")],
-        "held": [({"mu_0": 0.3}, "takes load, frequency, tan_delta, hold, got 'mu_0'")],
+        "held": [({"mu_0": 0.3}, "takes load, frequency, tan_delta, support_acceleration, hold, got 'mu_0'")],
         "store": [(3, "must be a folder, got 3")],
         "executor": [(4, "must be a concurrent.futures.Executor, got 4"),
                      (SimpleNamespace(get_executor=None), "; write client.get_executor()")],

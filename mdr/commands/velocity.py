@@ -35,6 +35,8 @@ def velocity(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     shake, across = "amplitude of the shake over the deflection at which springs slip", "the same across the pull"
     if known.is_shaken_at_pull:
         shake = f"force that shakes the stuck contact, over full friction of {number(known.full_friction, 'N')}"
+    elif not known.pull.is_rigid:
+        shake += ", of a tool that is held rigidly"
     tangent = "loss tangent of the material at omega; omega tau of a Kelvin body"
     groups = [("chi", known.chi, shake), *([("eta", known.eta, across)] if case.moves_across else [])]
     told = [

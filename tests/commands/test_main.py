@@ -359,6 +359,7 @@ WRONG = [
     *((f"run {{punch}} --v-0 {v}", "--v-0 must be above zero") for v in ("0", "-1e-3", "-0.5v_c")),
     *((f"run {{punch}} --v-0 '{v}'", f"{NO_VELOCITY} '{v}'") for v in ("nan", "inf", "v_c", "", "1e-3km/s", "5 N")),
     ("curve {punch} --v-0 1e-3 ''", f"{NO_VELOCITY} ''"),
+    ("find {punch} du_z --v-0 1mm/s --cof 70%", "give --share 70% for that of the friction without vibration"),
     ("run {punch} --v-0 1,5", "a velocity: 1,5 is no number, write 1.5 with a decimal point"),
     ("run {punch}", "the following arguments are required: --v-0"),
     ("run {punch} --v-0 1e-3 --n-springs 31", "argument --n-springs"),
@@ -572,6 +573,50 @@ def test_a_multiple_of_v_c_the_other_way_is_of_that_ways_own(capsys, punch):
     file_of(case, Path(punch))
     told = json_of(capsys, ["run", punch, "--json", "--accuracy", "1e-3", "--v-0", "-0.5v_c"])
     assert told["v_0"] == pytest.approx(-0.5 * mdr.critical_velocity(case, -1), rel=1e-12)
+
+
+SPOOL = """
+mu_0 = 0.15
+[indenter]
+shape = "FlatPunch"
+a = "1 mm"
+[material]
+model = "Elastic"
+E = "115 GPa"
+nu = 0.3
+[oscillation]
+load = "5 N"
+[pull]
+k_x = "20 N/mm"
+m = "30 g"
+c_x = 5
+[shake]
+frequency = "120 Hz"
+du_x = "20 um"
+at = "pull"
+"""
+
+
+def test_what_is_printed_of_rest_is_of_the_pull_that_the_case_has(tmp_path, capsys):
+    path = tmp_path / "spool.toml"
+    path.write_text(SPOOL)
+    told = json_of(capsys, ["velocity", "--json", str(path)])
+    assert_allclose(told["holding_band"], [-0.0686, 0.0686], atol=5e-5)
+    assert told["blocked_band"] == told["holding_band"]
+    assert told["no_load_velocity"] == 0
+    assert told["chi"] == pytest.approx(0.5427, abs=1e-4)
+    rows = {line.split()[0]: line for line in words_of(capsys, ["velocity", str(path)]).out.splitlines()}
+    assert "under its own pull, whose far end is shaken" in rows["band"]
+    assert "force that shakes the stuck contact, over full friction of 0.75 N" in rows["chi"]
+    command = ["curve", str(path), "--points", "5", "--json", "-o", str(tmp_path / "out")]
+    curve = json_of(capsys, command)
+    assert curve["v_0"][2] == 0
+    assert all(curve["settled"])
+    assert curve["static_cof"] == curve["holding_band"][1] == curve["cof"][2]
+    path.write_text(SPOOL.replace('"pull"', '"tool"'))
+    rows = {line.split()[0]: line for line in words_of(capsys, ["velocity", str(path)]).out.splitlines()}
+    assert "under a rigid pull that stands still" in rows["band"]
+    assert "of a tool that is held rigidly" in rows["chi"]
 
 
 @pytest.fixture

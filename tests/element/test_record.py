@@ -150,6 +150,27 @@ def test_the_second_half_of_a_slide_from_rest_has_no_build_up_in_it():
     assert np.isnan(lifted.late_cof)
 
 
+@pytest.mark.parametrize("across", [False, True])
+def test_a_stroke_to_and_fro_has_the_friction_of_its_loss(across):
+    """The mean of both ways is next to nothing; work over load and way is mu_0, but for each turn of the springs."""
+    ball, mu_0, F_z, stroke = mdr.Paraboloid(R=5e-3), 0.5, 0.05, 2e-3
+    t = np.linspace(0, 2, 401)
+    way = stroke * np.sin(2 * np.pi * t)
+    u = (0.6 * way, 0.8 * way) if across else (way, None)
+    run = mdr.slide_record(ball, ELASTIC, mu_0, t, *u, F_z=F_z)
+    turned = 4 * 2 * mu_0 * ELASTIC.mindlin_ratio * mdr.static_depth(ball, ELASTIC, F_z) / (8 * stroke)
+    assert abs(run.cof) < 0.02
+    assert mu_0 * (1 - 2 * turned) < run.loss_cof < mu_0
+    path = np.hypot(np.diff(run.u_x), np.diff(run.u_y)).sum()
+    assert run.loss_cof == pytest.approx(run.energy_balance.plane_work / (F_z * path), rel=1e-6)
+    assert "both ways together" in str(run)
+    assert "COF, loss" in str(run)
+    one_way = mdr.slide_record(ball, ELASTIC, mu_0, t, 1e-3 * t, F_z=F_z)
+    assert one_way.loss_cof == pytest.approx(one_way.cof, rel=1e-9)
+    assert "loss" not in str(one_way)
+    assert np.isnan(mdr.slide_record(ball, ELASTIC, mu_0, t, 0 * t, F_z=F_z).loss_cof)
+
+
 def test_a_million_steps_tell_how_far_they_are(monkeypatch, capsys):
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", 0.0)
     monkeypatch.setattr("mdr.element.record.AT_ONCE", 32 * 100)

@@ -245,6 +245,33 @@ def test_what_is_said_of_rest_is_under_the_own_pull():
     assert f"{slow[1]:.2g}" in mdr.verdict(case, accuracy=1e-3).at_rest
 
 
+SPOOL = mdr.SlidingContact(
+    mdr.FlatPunch(a=1e-3), mdr.Elastic(E=115e9, nu=0.3), 0.15, mdr.ConstantLoad(5.0), mdr.SpringPull(20e3, 0.03, 5.0),
+    mdr.InPlaneOscillation(2 * math.pi * 120, du_x=20e-6, at="pull"),
+)  # fmt: skip
+SPOOL_HOLDS = 0.15 - 20e-6 * abs(20e3 + 5j * 2 * math.pi * 120) / 5  # what its spring and damper leave of friction
+
+
+def test_a_spool_that_its_spring_shakes_and_that_sticks_is_an_answer():
+    """All that is said of rest is of its own pull; at 20 um its spring passes on a half of what friction bears."""
+    band, run = mdr.holding_band(SPOOL), mdr.slide(SPOOL, 0.0, start="rest")
+    assert_allclose([band.low, band.high], [-SPOOL_HOLDS, SPOOL_HOLDS], rtol=1e-4)  # contacts are not rigid
+    assert band.contains(run.cof)
+    assert run.kind == "holds"
+    assert "ask blocked_cof(case)" in run.why
+    with pytest.raises(ValueError, match=r"between -0\.06859\d* and 0\.06859"):
+        mdr.blocked_cof(SPOOL)
+    assert mdr.no_load_velocity(SPOOL) == 0.0
+    assert mdr.cof_curve(SPOOL, [0.0, 0.1]).static_cof == band.high
+    assert mdr.resolved(SPOOL).chi == pytest.approx(1 - SPOOL_HOLDS / 0.15, rel=1e-3)
+    held = "At rest it holds up to 0.0686 of the load pulled forward and 0.0686 the other way"
+    assert mdr.verdict(SPOOL, accuracy=1e-3).at_rest.startswith(held)
+
+
+def test_under_a_rigid_pull_a_run_at_rest_leads_to_the_band():
+    assert "ask holding_band(case)" in mdr.slide(contact(chi=0.3), 0.0).why
+
+
 # --- what is refused, and what an answer must not depend on ---
 
 

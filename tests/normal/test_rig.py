@@ -1,6 +1,7 @@
 """From a rig to a case: each way of saying the same gives the same contact, and what is left open is asked."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -30,6 +31,93 @@ def test_acceleration_and_depth_are_one_amplitude_about_the_depth_of_the_load():
     assert by_depth.oscillation.u_z0 == mdr.static_depth(BALL, RUBBER, 1.0)
     assert_allclose(by_acceleration.oscillation.du_z, 2e-6, rtol=1e-15)
     assert by_depth.pull == mdr.RigidPull()
+
+
+G, STEEL = 9.80665, mdr.ElasticPair(E_1=210e9, nu_1=0.3, E_2=210e9, nu_2=0.3)
+ON_TABLE = """
+mu_0 = 0.3
+[indenter]
+shape = "Sphere"
+R = "5 mm"
+[material]
+model = "Elastic"
+E = "115 GPa"
+nu = 0.3
+[oscillation]
+load = 0.980665
+support_acceleration = "0.5 g"
+frequency = "50 Hz"
+"""
+
+
+def on_table(a=0.5, **given):
+    return mdr.rig(BALL, STEEL, 0.3, **{"frequency": 50, "load_grams": 100, "support_acceleration": a * G, **given})
+
+
+def test_a_block_on_a_shaken_table_is_pressed_by_its_weight_and_its_inertia():
+    """m (g + a) well below its resonance on the contact; mu_0 (1 - a/g) at rest, full friction above 7.7 um/s."""
+    case = on_table()
+    assert_allclose([case.oscillation.dF_z, case.oscillation.m_z], [0.05 * G, 0.1], rtol=1e-15)
+    known = mdr.resolved(case)
+    below = known.oscillation.omega**2 * 0.1 / known.k_zc  # squared ratio of frequencies: what its own motion changes
+    assert mdr.static_cof(case) == pytest.approx(0.3 * 0.5, abs=0.3 * below)
+    assert mdr.static_cof(replace(case, oscillation=replace(case.oscillation, m_z=0.0))) == pytest.approx(0.15)
+    assert mdr.slide(case, 1e-5).cof == pytest.approx(0.3, rel=1e-6)
+
+
+def test_what_lies_on_a_table_moves_against_it_as_seen_from_there():
+    """m u'' = m g + m a cos - F_N: near its resonance on the contact a small acceleration is enlarged."""
+    a = 1e-3
+    still = mdr.resolved(on_table(a))
+    ratio = 0.8
+    case = mdr.resolved(on_table(a, frequency=ratio * np.sqrt(still.k_zc / 0.1) / (2 * np.pi)))
+    assert 1 - mdr.static_cof(case) / 0.3 == pytest.approx(a / (1 - ratio**2), rel=2e-2)  # the ball stiffens
+
+
+@pytest.mark.parametrize(
+    ("given", "m_z"),
+    [({}, 0.1), ({"m": 0.1}, 0.1), ({"m": 0.05, "load_rides": True}, 0.1), ({"m": 0.05, "load_rides": False}, 0.05)],
+)
+def test_the_mass_on_a_table_is_the_load_s_or_the_sled_s(given, m_z):
+    case = on_table(k_x=1e3, **{"m": 0, **given})
+    assert case.oscillation.m_z == pytest.approx(m_z)
+    assert case.oscillation.dF_z == pytest.approx(m_z * 0.5 * G)
+
+
+def test_what_is_left_open_of_a_table_is_asked():
+    with pytest.raises(ValueError, match=r"the weight of 0\.1 kg, and the sled has m = 0\.05 kg: say load_rides"):
+        on_table(k_x=1e3, m=0.05)
+    with pytest.raises(ValueError, match="hold is about a driven depth"):
+        on_table(hold="load")
+    with pytest.raises(ValueError, match="acceleration and support_acceleration are given: give one"):
+        on_table(acceleration=1.0)
+
+
+@pytest.mark.parametrize("hold", [None, "load"])
+def test_an_acceleration_that_no_weight_brings_about_leads_to_the_table(hold):
+    """The indenter against the half-space by 0.5 g at 50 Hz: +-50 um, where the weight carries tenths of one."""
+    with pytest.warns(mdr.PlausibilityWarning, match="a shaken table, give it as support_acceleration"):
+        mdr.rig(BALL, STEEL, 0.3, frequency=50, load_grams=100, acceleration=0.5 * G, hold=hold)
+
+
+def test_a_table_in_a_case_file_in_paths_and_in_studies():
+    case = mdr.parse_case(ON_TABLE)
+    told = case.oscillation
+    assert_allclose([told.F_z0, told.dF_z, told.omega, told.m_z], [0.1 * G, 0.05 * G, OMEGA, 0.1], rtol=1e-14)
+    held = {"support_acceleration": 0.5 * G}
+    heavier = mdr.sweep(case, {"load": [0.5, 2.0]}, quantities=["static_cof"], held=held)
+    assert_allclose(heavier.static_cof, 0.15, rtol=2e-3)
+    faster = mdr.sweep(case, {"support_acceleration": [0.25 * G, 0.75 * G]}, quantities=["static_cof"])
+    assert_allclose(faster.static_cof, [0.3 * 0.75, 0.3 * 0.25], rtol=1e-2)
+    with pytest.raises(ValueError, match="support_acceleration: NormalOscillation has no dF_z"):
+        mdr.sweep(rig(depth_amplitude=2e-6), {"support_acceleration": [1.0]}, quantities=["static_cof"])
+
+
+def test_a_body_of_another_mass_than_the_load_is_asked_about_in_a_file():
+    with pytest.warns(mdr.PlausibilityWarning, match=r"a mass of 0\.1 kg, and the body has m = 0\.2 kg: give m_z"):
+        mdr.parse_case(ON_TABLE + "[pull]\nk_x = 1e3\nm = 0.2\n")
+    case = mdr.parse_case(ON_TABLE + "m_z = 0.2\n[pull]\nk_x = 1e3\nm = 0.2\n")
+    assert case.oscillation.dF_z == pytest.approx(0.1 * G)
 
 
 def test_the_mass_of_a_load_in_grams_has_its_weight():
