@@ -49,7 +49,7 @@ def static_cof(case: SlidingContact) -> float:
         For what is no SlidingContact.
     ValueError
         For a contact that is shaken in the plane under a spring pull or on a material with arms, where no closed form
-        is known: `holding_band` and `cof_curve` march it.
+        is known: ask `cof_curve`, or `blocked_cof`.
 
     Notes
     -----
@@ -75,7 +75,7 @@ def static_cof(case: SlidingContact) -> float:
             raise ValueError(
                 "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull, "
                 "along the pull on an elastic or Kelvin material, across it at a constant depth, without tau_0: "
-                "ask holding_band(case), or cof_curve(case, [0])"
+                "ask cof_curve(case, [0]), or blocked_cof(case)"
             )
         return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):

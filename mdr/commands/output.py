@@ -90,7 +90,7 @@ WAYS = {
     "too great for critical_velocity(case)": "too great for the closed form",
     'give hold="load"': 'give hold = "load" in [oscillation]',
     "`within` may be widened": "--within low high searches another range",
-    "holding_band(case), or cof_curve(case, [0])": "`mdr velocity`, or `mdr curve case.toml --v-0 0`",
+    "cof_curve(case, [0]), or blocked_cof(case)": "`mdr velocity`, or `mdr curve case.toml --v-0 0`",
 }
 
 

@@ -253,6 +253,9 @@ def finish(end: MarchEnd) -> SlidingRun:
 
 def _why_not(end: MarchEnd) -> str:
     settling, n = end.settling, end.n_periods
+    if end.v_0 == 0 and not end.case.pull.is_rigid and not settling.contradicts:
+        why = settling.why or f"F_x still changes after {n} periods"
+        return f"{why}: ask blocked_cof(case) for what the body holds at rest"
     if settling.why == NO_STEP:
         return f"{NO_STEP}: raise steps_per_period, or hold the indenter rigidly"
     if settling.contradicts:
