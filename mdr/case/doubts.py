@@ -155,8 +155,8 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
         )
     if known.is_shaken and max(known.chi, known.eta) < LEAST:
         yield (
-            f"the amplitude of the shake is {max(known.chi, known.eta):.3g} of that at which every spring slips at rest, "
-            "which has next to no effect: is an amplitude, a depth or a load in another unit?"
+            f"the amplitude of the shake is {max(known.chi, known.eta):.3g} of that at which every spring slips at "
+            "rest, which has next to no effect: is an amplitude, a depth or a load in another unit?"
         )
     for name, omega, harmonics in _moving(known):
         n = np.arange(1, harmonics.size + 1)

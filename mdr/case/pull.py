@@ -89,12 +89,12 @@ class Pull(Record, ABC):
             H = np.where(Z == 0, complex(np.inf), 1 / Z)
         return complex(H) if H.ndim == 0 else H
 
-    def dynamic_stiffness(self, omega: NDArray[np.float64], *, across: bool = False) -> NDArray[np.complex128]:
+    def dynamic_stiffness(self, omega: ArrayLike, *, across: bool = False) -> NDArray[np.complex128]:
         """Z(omega) = k - m omega² + i omega c [N/m] of a body that yields: 1/H, an oscillating force over displacement.
 
         Parameters
         ----------
-        omega : ndarray of float
+        omega : array_like of float
             Angular frequency [rad/s].
         across : bool
             Whether the force acts across the pull.
@@ -104,6 +104,7 @@ class Pull(Record, ABC):
         ndarray
             Z [N/m] in the shape of omega.
         """
+        omega = np.asarray(omega)
         m, c, k = self.across if across else self.coefficients
         return np.asarray(k - m * omega**2 + 1j * omega * c)
 

@@ -179,8 +179,8 @@ def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: 
     wanted = finite("cof", cof)
     if path not in OF_FACE and not case.tau_0 and abs(wanted) >= case.mu_0:
         raise ValueError(
-            f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c, or for "
-            "share=, which is that of mu_0"
+            f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c, "
+            "or for share=, which is that of mu_0"
         )
     return _Wish(friction, wanted, f"the COF{where}", "")
 

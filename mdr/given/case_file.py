@@ -138,18 +138,17 @@ def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapp
         warn_outside(
             "[pull] says no mass: give m in kg, or m = 0 for a body without inertia, which is what is computed"
         )
-    m, motion = case.pull.coefficients[0], case.oscillation
-    if "support_acceleration" in content["oscillation"]:
-        silent = "m_z" not in content["oscillation"] and isinstance(motion, LoadOscillation)
-        if m > 0 and silent and not math.isclose(m, motion.m_z, rel_tol=0.01):
-            warn_outside(
-                f"the load is taken for the weight of a mass of {motion.m_z:.6g} kg, and the body has m = {m:.6g} kg: "
-                "give m_z, the mass that moves up and down"
-            )
+    m, motion, written = case.pull.coefficients[0], case.oscillation, content["oscillation"]
+    silent = "m_z" not in written and "oscillation.m_z" not in axes
+    if not (m > 0 and isinstance(motion, LoadOscillation) and silent):
         return
-    silent = "m_z" not in content["oscillation"] and "oscillation.m_z" not in axes
-    if m > 0 and isinstance(case.oscillation, LoadOscillation) and silent:
+    if "support_acceleration" not in written:
         warn_outside(
             f"the body has the mass m = {m:.6g} kg along the pull, and [oscillation] does not say which mass the load "
             f"moves: m_z = {m:.6g} if it presses on the body itself, which may change v_c several times, or m_z = 0"
+        )
+    elif not math.isclose(m, motion.m_z, rel_tol=0.01):
+        warn_outside(
+            f"the load is taken for the weight of a mass of {motion.m_z:.6g} kg, and the body has m = {m:.6g} kg: give "
+            "m_z, the mass that moves up and down"
         )

@@ -71,9 +71,10 @@ def rig(
     load_amplitude, depth_amplitude, acceleration, support_acceleration : float, optional
         What the normal vibration is set to; give one, or none where `shake` moves the contact in the plane alone.
         Amplitude of the load [N]; amplitude of the depth [m]; amplitude of the acceleration of the indenter against
-        the half-space [m/s²], which is (2 pi frequency)² times that of the depth; or amplitude of the acceleration [m/s²]
-        of a support, such as a shaken table, on which the one body stands and the other, a mass, lies by its weight: its
-        normal force is m (g + a) well below the resonance of the mass on the contact. Upwards at its greatest at t = 0.
+        the half-space [m/s²], which is (2 pi frequency)² times that of the depth; or amplitude of the acceleration
+        [m/s²] of a support, such as a shaken table, on which the one body stands and the other, a mass, lies by its
+        weight: its normal force is m (g + a) well below the resonance of the mass on the contact. Greatest upwards at
+        t = 0.
     tan_delta : float, optional
         Loss tangent [-] at this frequency. It turns an `Elastic` material, whose E then is the storage modulus, into
         the `KelvinVoigt` material that has it.
@@ -102,8 +103,8 @@ def rig(
     Returns
     -------
     SlidingContact
-        The contact. With an amplitude of the load, or of a support, a `LoadOscillation`; with one of depth or acceleration, a
-        `NormalOscillation` about the depth that `hold` asks for; with none, a `ConstantLoad`.
+        The contact. With an amplitude of the load, or of a support, a `LoadOscillation`; with one of depth or
+        acceleration, a `NormalOscillation` about the depth that `hold` asks for; with none, a `ConstantLoad`.
 
     Raises
     ------
@@ -152,6 +153,8 @@ def rig(
     if held and (by_force or not amplitudes):
         raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
     pull = _pull(k_x, m, c_x)
+    if load_rides is not None and not isinstance(load_rides, bool):
+        raise TypeError(f"load_rides must be True or False, got {load_rides!r}")
     if support_acceleration is None:
         m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
     else:
@@ -214,8 +217,6 @@ def _pull(k_x: float | None, m: float | None, c_x: float) -> Pull:
 
 def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rigid: bool, F_z0: float) -> float:
     """The mass [kg] that moves in the normal direction."""
-    if rides is not None and not isinstance(rides, bool):
-        raise TypeError(f"load_rides must be True or False, got {rides!r}")
     moved = not_negative("m", m, "mass in kg") if m is not None else 0.0
     if rides is not None and not oscillates:
         raise ValueError("load_rides is about an oscillating load: give load_amplitude too, or leave it out")
@@ -238,15 +239,13 @@ def _moved_by_load(m: float | None, rides: bool | None, oscillates: bool, is_rig
 
 def _on_support(m: float | None, rides: bool | None, F_z0: float) -> float:
     """The mass [kg] that lies on a shaken support."""
-    if rides is not None and not isinstance(rides, bool):
-        raise TypeError(f"load_rides must be True or False, got {rides!r}")
     weighs, moved = F_z0 / GRAVITY, not_negative("m", m, "mass in kg") if m is not None else 0.0
     if rides is False:
         return positive("m", moved, "mass in kg of the sled that lies on the support; or load_rides=True")
     if rides is None and moved > 0 and not math.isclose(moved, weighs, rel_tol=0.01):
         raise ValueError(
-            f"the load is the weight of {weighs:.6g} kg, and the sled has m = {moved:.6g} kg: say load_rides=True where "
-            "all that presses lies on the support with its mass, or load_rides=False where a soft spring presses the sled"
+            f"the load is the weight of {weighs:.6g} kg, and the sled has m = {moved:.6g} kg: say load_rides=True "
+            "where all that presses lies on the support, or load_rides=False where a soft spring presses the sled"
         )
     return weighs
 
@@ -256,8 +255,8 @@ def _warn_of_drive(case: SlidingContact, inertia: float, way_out: str) -> None:
     force = normal_force(known := resolved(case), np.linspace(0, 2 * np.pi, 64)) if way_out else np.zeros(1)
     if (swing := float(np.ptp(force)) / 2) > 2 * inertia:
         warn_outside(
-            f"acceleration= is that of the indenter against the half-space: a depth of +-{known.cycle.du_z:.3g} m, which "
-            f"takes a drive of +-{swing:.3g} N, where the weight alone has +-{inertia:.3g} N at that acceleration{way_out}"
+            f"acceleration= is that of the indenter against the half-space: a depth of +-{known.cycle.du_z:.3g} m "
+            f"takes a drive of +-{swing:.3g} N, and the weight has +-{inertia:.3g} N at that acceleration{way_out}"
         )
 
 

@@ -109,7 +109,7 @@ def test_a_table_in_a_case_file_in_paths_and_in_studies():
     assert_allclose(heavier["static_cof"], 0.15, rtol=5e-3)  # its own motion on the contact
     faster = mdr.sweep(case, {"support_acceleration": [0.25 * G, 0.75 * G]}, quantities=["static_cof"])
     assert_allclose(faster["static_cof"], [0.3 * 0.75, 0.3 * 0.25], rtol=1e-2)
-    with pytest.raises(ValueError, match="support_acceleration: NormalOscillation has no dF_z"):
+    with pytest.raises(ValueError, match="support_acceleration sets oscillation.dF_z, which NormalOscillation has not"):
         mdr.sweep(rig(depth_amplitude=2e-6), {"support_acceleration": [1.0]}, quantities=["static_cof"])
 
 
