@@ -291,6 +291,8 @@ class _Table:
         aliases += [HOLD] if self.name == "oscillation" else []
         if key.casefold() in FREQUENCY and "frequency" in aliases:
             return f"{whose}; did you mean frequency?"
+        if self.name == "oscillation" and key.casefold() in ACCELERATION:
+            return f"{whose}; {ACCELERATION_OF}"
         if key.casefold() not in {one.casefold() for one in known}:
             if key in TOP and key not in KINDS:
                 return f"{whose}; write it at the top of the file, above the first table"
@@ -317,6 +319,11 @@ HARMLESS = {
 TOP = units_of(SlidingContact)
 MAY_LACK = ("tau_0",)  #: not written where they are zero
 FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
+ACCELERATION = ("acceleration", "accel", "acc", "a", "a_z")
+ACCELERATION_OF = (
+    "of what a mass stands on, give support_acceleration; of the indenter against the half-space du_z, which is "
+    "acceleration/omega²"
+)
 STUDY = "[axes] makes it a study file, not a case file; `mdr sweep` reads it"  #: a fault
 _CALLABLE = "its shape is a Python function, which a file cannot carry"
 

@@ -109,8 +109,14 @@ def test_a_table_in_a_case_file_in_paths_and_in_studies():
     assert_allclose(heavier["static_cof"], 0.15, rtol=5e-3)  # its own motion on the contact
     faster = mdr.sweep(case, {"support_acceleration": [0.25 * G, 0.75 * G]}, quantities=["static_cof"])
     assert_allclose(faster["static_cof"], [0.3 * 0.75, 0.3 * 0.25], rtol=1e-2)
-    with pytest.raises(ValueError, match="support_acceleration sets oscillation.dF_z, which NormalOscillation has not"):
+    with pytest.raises(ValueError, match=r"support_acceleration sets oscillation\.dF_z, which Normal"):
         mdr.sweep(rig(depth_amplitude=2e-6), {"support_acceleration": [1.0]}, quantities=["static_cof"])
+
+
+def test_an_acceleration_in_a_file_is_asked_whose_it_is():
+    for key in ("acceleration", "a_z"):
+        with pytest.raises(mdr.CaseFileError, match=r"of what a mass stands on, give support_acceleration; of the ind"):
+            mdr.parse_case(ON_TABLE.replace("support_acceleration", key))
 
 
 def test_a_body_of_another_mass_than_the_load_is_asked_about_in_a_file():
