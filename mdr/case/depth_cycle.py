@@ -204,6 +204,14 @@ def _peak(numbers: bytes) -> float:
     return float(harmonic_sum(harmonics, turns(harmonics, highest=True)).max()) if harmonics.any() else 0.0
 
 
+def least_of(values: Array) -> float:
+    """Minimum over a period of equidistant values, by the parabola through the least one and its neighbours."""
+    k = int(np.argmin(values))
+    before, least, after = values[k - 1], values[k], values[(k + 1) % values.size]
+    bend = before - 2 * least + after
+    return float(least - (after - before) ** 2 / (8 * bend) if bend > 0 else least)
+
+
 def stick_limit(mu_0: float, du_z: float, omega: float, mindlin_ratio: float) -> float:
     """Greatest rate [m/s] of the deflection at which a pressed spring slips, mu_0 kappa omega du_z: Eq. (1)."""
     return mu_0 * mindlin_ratio * omega * du_z

@@ -19,12 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.depth_cycle import least_of
 from mdr.closed_forms.across import is_across_alone, static_across
+from mdr.closed_forms.held_body import CLOSE, held_forward
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, has_closed_form
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.normal_force import followed, full_cof, mean_normal_force, normal_force
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import SAME, Array
+from mdr.tools.arrays import SAME
 
 
 def static_cof(case: SlidingContact) -> float:
@@ -48,8 +50,8 @@ def static_cof(case: SlidingContact) -> float:
     TypeError
         For what is no SlidingContact.
     ValueError
-        For a contact that is shaken in the plane under a spring pull or on a material with arms, where no closed form
-        is known: ask `cof_curve`, or `blocked_cof`.
+        For a contact that is shaken in the plane on a material with arms, or under a spring pull that does not hold it
+        or is not soft beside the contact, where no closed form is known: ask `cof_curve`, or `blocked_cof`.
 
     Notes
     -----
@@ -71,6 +73,9 @@ def static_cof(case: SlidingContact) -> float:
     if case.moves_across and is_across_alone(case) and not case.tau_0:
         return static_across(case)
     if case.is_shaken:
+        end = held_forward(case)
+        if end is not None and end.error <= CLOSE * case.mu_0:
+            return end.cof
         if case.tau_0 or not has_closed_form(case):
             raise ValueError(
                 "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull, "
@@ -107,14 +112,6 @@ def _slips_at_any_pull(case: SlidingContact) -> bool:
         return False
     left = np.abs(n * (case.material.mindlin_ratio * u_n + H * F_n))
     return bool(left.sum() <= SAME * case.material.mindlin_ratio * case.cycle.unit)
-
-
-def least_of(values: Array) -> float:
-    """Minimum over a period of equidistant values, by the parabola through the least one and its neighbours."""
-    k = int(np.argmin(values))
-    before, least, after = values[k - 1], values[k], values[(k + 1) % values.size]
-    bend = before - 2 * least + after
-    return float(least - (after - before) ** 2 / (8 * bend) if bend > 0 else least)
 
 
 def normal_force_harmonics(case: SlidingContact, n_t: int = N_STEPS) -> NDArray[np.complex128]:

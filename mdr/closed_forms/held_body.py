@@ -28,13 +28,13 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.depth_cycle import at_instants
-from mdr.closed_forms.full_slip import least_of
+from mdr.case.depth_cycle import at_instants, least_of
 from mdr.normal.load_control import static_depth
 from mdr.normal.normal_force import mean_normal_force, normal_force
 from mdr.tools.arrays import EXACT, Array
 
 INSTANTS = 4096  #: of a period
+CLOSE = 1e-3  #: error, over mu_0, up to which this is asked first
 HIGHEST = 3  #: harmonic, over that of what moves, of what a curved contact yields more
 
 

@@ -18,11 +18,11 @@ from mdr.case.coulomb import greatest
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
-from mdr.closed_forms.held_body import held_forward
+from mdr.closed_forms.held_body import CLOSE, held_forward
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.closed_forms.shaken_pull import ShakenPull, has_closed_form
 from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
-from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, Resolution, accuracy_of
+from mdr.march.periodic.steady import BUDGET, Resolution, accuracy_of
 from mdr.march.periodic.theorems import disordered
 from mdr.march.result.refinement import resolution_of
 from mdr.march.result.run import finish
@@ -352,7 +352,7 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     if (held := held_forward(case)) is None:
         return _slow(case, friction, is_held=False)
     known = held.cof, held.error, True, 1.0, "", held.cof_y
-    return known if held.error <= LEAST_ACCURATE * case.mu_0 else min(_slow(case, friction, True), known, key=_error)
+    return known if held.error <= CLOSE * case.mu_0 else min(_slow(case, friction, True), known, key=_error)
 
 
 def _error(point: Point) -> float:

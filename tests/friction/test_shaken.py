@@ -262,7 +262,7 @@ def test_a_spool_that_its_spring_shakes_and_that_sticks_is_an_answer():
     with pytest.raises(ValueError, match=r"between -0\.06859\d* and 0\.06859"):
         mdr.blocked_cof(SPOOL)
     assert mdr.no_load_velocity(SPOOL) == 0.0
-    assert mdr.cof_curve(SPOOL, [0.0, 0.1]).static_cof == band.high
+    assert mdr.cof_curve(SPOOL, [0.0, 0.1]).static_cof == mdr.static_cof(SPOOL) == band.high
     assert mdr.resolved(SPOOL).chi == pytest.approx(1 - SPOOL_HOLDS / 0.15, rel=1e-3)
     held = "At rest it holds up to 0.0686 of the load pulled forward and 0.0686 the other way"
     assert mdr.verdict(SPOOL, accuracy=1e-3).at_rest.startswith(held)

@@ -226,6 +226,8 @@ def finish(end: MarchEnd) -> SlidingRun:
     kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
     if settling.settled and may_rest_elsewhere(end, account):
         holds = HOLDS.format("holding_band" if case.pull.is_rigid else "blocked_cof")
+        if not (case.pull.is_rigid or case.is_shaken_at_pull):
+            holds += ", and holding_band(case) for what it holds under a rigid pull"
         kind, why = "holds", "; ".join(filter(None, (holds, why)))
     return SlidingRun(
         cof=full * cof,
