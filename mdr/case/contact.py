@@ -465,6 +465,13 @@ class SlidingContact(Record, Summarised):
         return bool(least < greatest) or not self.keeps_contact
 
     @property
+    def gap_tells_limit(self) -> bool:
+        """Whether friction bears as much on all springs of one gap, at every instant: one may stand for them. A shear
+        strength bears less the further out a spring stands.
+        """
+        return not self.tau_0
+
+    @property
     def always_sticks(self) -> bool:
         """Whether springs stick at any pull: those that the edge of contact reaches, of a face with a shear strength
         and no dashpot.

@@ -35,12 +35,13 @@ class Depths(NamedTuple):
     kept: float  #: gap below which springs never lose contact
     greatest: float  #: gap at the greatest depth
     alike: float  #: gap below which they do the same besides, but for their gap; no more than `kept`
+    by_gap: bool = True  #: whether springs of one gap do the same wherever they stand
 
     @classmethod
-    def of(cls, cycle: Cycle, kept_gap: float, alike: float = np.inf) -> Depths:
+    def of(cls, cycle: Cycle, kept_gap: float, alike: float = np.inf, by_gap: bool = True) -> Depths:
         """Of a periodic motion; kept_gap and alike in units of its amplitude."""
         kept, greatest, alike = (cycle.unit * gap for gap in (kept_gap, cycle.greatest, min(kept_gap, alike)))
-        return cls(cycle.u_z0, cycle.unit, kept, greatest, alike)
+        return cls(cycle.u_z0, cycle.unit, kept, greatest, alike, by_gap)
 
 
 @remembered(maxsize=16)
@@ -49,7 +50,7 @@ def nodes(shape: Indenter, depths: Depths, n_springs: int) -> tuple[Array, Array
     if shape.least_depth > 0:
         return _complete(shape, depths.u_z0, n_springs)
     of = _stretches(shape, depths)
-    counts = _share_out(of, n_springs, depths.unit)
+    counts = _share_out(of, n_springs, depths)
     share, part, which = _fejer_row(counts)
     span, height, u_z0 = of.x_hi - of.x_lo, of.gap_hi - of.gap_lo, depths.u_z0
     x = of.x_lo[which] + span[which] * share
@@ -102,12 +103,12 @@ def _stretches(shape: Indenter, depths: Depths) -> _Stretches:
     return _Stretches(*cut)
 
 
-def _share_out(of: _Stretches, n_springs: int, unit: float) -> tuple[int, ...]:
+def _share_out(of: _Stretches, n_springs: int, depths: Depths) -> tuple[int, ...]:
     """Number of springs of each stretch: the same, but for those where all move alike."""
     least = 2 * of.x_lo.size
     if n_springs < least:
         raise ValueError(f"n_springs must be at least {least} for this shape with its kinks, got {n_springs}")
-    level = of.gap_hi - of.gap_lo <= SAME * unit
+    level = depths.by_gap & (of.gap_hi - of.gap_lo <= SAME * depths.unit)
     # a stretch whose springs move alike gets an eighth of the springs of another
     shares = np.cumsum(np.where(level & ~level.all(), 0.0, np.where(of.alike, 1 / 8, 1.0)))
     more = np.rint((n_springs - least) * shares / shares[-1]).astype(int).tolist()

@@ -130,9 +130,10 @@ class SpringArray(Summarised, ArrayRecord):
 
 def springs_of(case: SlidingContact, n_springs: int, alike: float = np.inf) -> SpringArray:
     """What `SpringArray.of` answers. alike: gap [amplitudes] up to which springs that never lose contact do the same
-    but for their gap, as all of them do where nothing shakes in the plane, no body swings back, and friction is
-    Coulomb's alone.
+    but for their gap, as all of them do where nothing shakes in the plane, no body swings back, and their limit of
+    friction follows from it.
     """
-    depths = Depths.of(case.cycle, case.kept_gap, -np.inf if case.is_shaken or case.tau_0 else alike)
+    by_gap = case.gap_tells_limit
+    depths = Depths.of(case.cycle, case.kept_gap, alike if by_gap and not case.is_shaken else -np.inf, by_gap)
     x, gap, width, n_core = nodes(case.indenter, depths, n_springs)
     return SpringArray(x, gap, width, case.material.E_star, case.material.G_star, n_core)

@@ -191,7 +191,8 @@ def friction_on_face(face, springs, rub, s, e, i, pressing, T, modes, arms, tool
     A, B = hold(kept, 0, z[0], z[1], t, k, T, tools, arms)
     q = raise_to_limit(s, i, z, strengths(face, x2, begun, t), t, face.coulomb, T, arms)
     tol += ROUNDING * (abs(s[0, i]) + size_of(e[0, i]))
-    of = rub(s, e, i, w, Pressing(q, x, t, k, begun, tol, rate_miss), T, modes, arms, tools, look)
+    missed = face.coulomb * rate_miss[0], rate_miss[1]
+    of = rub(s, e, i, w, Pressing(q, x, t, k, begun, tol, missed), T, modes, arms, tools, look)
     for j in range(s.shape[0]):
         s[j, i] = kept[j, 0]
     if look is not None:

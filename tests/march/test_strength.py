@@ -8,6 +8,8 @@ from conftest import SHAPES
 from tables import strength as table
 
 import mdr
+from mdr.march.periodic.steady import at_hand, steady
+from mdr.march.result.refinement import resolution_of
 
 OMEGA, DEPTH, ALPHA = table.OMEGA, table.DEPTH, 0.3
 ELASTIC, KELVIN, ARMS = (one[0] for one in table.MATERIALS.values())
@@ -17,22 +19,21 @@ BALL = mdr.SlidingContact(SHAPES["paraboloid"][0], ELASTIC, 0.0, MOTION, tau_0=1
 UNIT = 2 * BALL.tau_0 / ELASTIC.G_star * OMEGA * np.sqrt(5e-3 * DEPTH)
 KNOBS = {"n_springs": 64, "steps_per_period": 256}
 
-RANDOM = {name: (case, v_0, known) for name, case, v_0, known in table.drawn(60)}
+ROUND, LEVEL = ({name: known for name, *known in table.drawn(60, level)} for level in (False, True))
 
 
-def named(*numbers):
-    return [name for name in RANDOM if int(name.split(":")[0]) in numbers]
+def named(random, *numbers):
+    return [name for name in random if int(name.split(":")[0]) in numbers]
 
 
-def beside(name):
-    return table.row_of(name, *RANDOM[name], steps=2048, count=64)
-
-
-@pytest.mark.parametrize("name", named(1, 2, 3, 6, 8, 16, 18, 21, 28, 30, 32, 33, 36, 42))
+@pytest.mark.parametrize(
+    "name", [*named(ROUND, 1, 2, 3, 6, 8, 16, 18, 21, 28, 30, 32, 33, 36, 42), *named(LEVEL, 3, 9, 10, 18, 21, 33)]
+)
 def test_runs_agree_with_the_twin(name):
-    """Elastic shapes, contact kept and lost; punches that keep it; rigid, under a body, shaken
-    along and across."""
-    row = beside(name)
+    """Elastic shapes, contact kept and lost; punches that keep it; level in the middle, where springs of one gap differ
+    by their place; rigid, under a body, shaken along and across.
+    """
+    row = table.row_of(name, *(ROUND | LEVEL)[name], steps=2048, count=64)
     assert row.settled
     assert row.doubt < 1e-4
     assert row.error <= row.bound, row
@@ -47,10 +48,10 @@ def test_a_search_ends_where_a_march_does(material):
     assert run.cof == pytest.approx(march.cof, abs=1e-7)
 
 
-@pytest.mark.parametrize("name", named(15, 16))
+@pytest.mark.parametrize("name", named(ROUND, 15, 16))
 def test_cof_error_covers_an_edge_that_comes_from_nothing(name):
     """A round face, whose radius grows at once, and a punch, whose radius jumps."""
-    row = table.row_of(name, *RANDOM[name])
+    row = table.row_of(name, *ROUND[name])
     assert row.error <= row.bound, row
 
 
@@ -98,3 +99,42 @@ def test_energies_close_where_contact_is_kept(material, mu_0):
     run = mdr.slide(case, 0.3 * case.unit_velocity, **KNOBS)
     assert run.energy_balance.friction_loss > 0
     assert abs(run.energy_balance.relative) < 1e-6
+
+
+@pytest.mark.parametrize("shape", [SHAPES["flat"][0], mdr.TruncatedCone(b=5e-4, theta=0.02)], ids=["punch", "cone"])
+@pytest.mark.parametrize("mu_0", [0.0, 0.3])
+def test_a_contact_that_is_lost_holds_nothing(shape, mu_0):
+    """Whatever its strength: it rests in one state, from any start."""
+    lost = mdr.NormalOscillation(DEPTH, 1.3 * DEPTH, OMEGA)
+    case = mdr.SlidingContact(shape, ELASTIC, mu_0, lost, tau_0=2e4)
+    case = replace(case, shake=mdr.InPlaneOscillation(OMEGA, 0.3 * case.unit_length, 0.7))
+    runs = [mdr.slide(case, 0.0, start=start, **KNOBS) for start in ("full_slip", "rest")]
+    assert [(run.settled, run.kind, run.why) for run in runs] == [(True, "periodic", "")] * 2
+    assert runs[0].cof == pytest.approx(runs[1].cof, abs=1e-9)
+
+
+@pytest.mark.parametrize("mu_0", [0.3, 0.03])
+def test_a_punch_slips_as_fast_as_coulombs_part_leaves_it(mu_0):
+    """By v_0 less the greatest rate of its limit, Eq. (1), to which a constant adds nothing."""
+    case = mdr.SlidingContact(SHAPES["flat"][0], ELASTIC, mu_0, MOTION, tau_0=5e4)
+    v_c = mdr.critical_velocity(case)
+    assert mdr.slide(case, 1.3 * v_c, **KNOBS).least_slip == pytest.approx(0.3 * v_c, rel=1e-9)
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN, ARMS], ids=["elastic", "Kelvin", "arms"])
+def test_a_march_knows_where_full_slip_of_a_punch_ends(material):
+    case = mdr.SlidingContact(SHAPES["flat"][0], material, 0.05, MOTION, tau_0=5e4)
+    case = replace(case, pull=mdr.SpringPull(k_x=0.7 * case.k_xc, m=0.4 * case.k_xc / OMEGA**2))
+    _, scaled = at_hand(case, resolution_of(case, 32, 1024))
+    end = scaled.full_slip.end * scaled.units.speed
+    # a parabola through the nodes of arms misses the greatest rate by h²/8 of its bend
+    assert end == pytest.approx(mdr.full_slip_critical_velocity(case), rel=1e-5)
+
+
+def test_what_no_step_sees_follows_from_the_velocity_of_the_top():
+    """Not from that of the pull, 10, nor of the shake, 8: while the contact grows the top moves by 2 to 10."""
+    case = replace(BALL, shake=mdr.InPlaneOscillation(OMEGA, 8 * UNIT / OMEGA, np.pi))
+    fine = steady(case, 10 * UNIT, resolution_of(case, 512, 4096))
+    coarse = steady(case, 10 * UNIT, resolution_of(case, 64, 128))
+    # the law of a single edge, summed over the steps: of first order in the step, 5 % here
+    assert coarse.stepper.unseen(coarse.orbit.state) == pytest.approx(1 - fine.cof, rel=0.1)

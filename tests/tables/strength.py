@@ -1,8 +1,9 @@
-"""True error of slide() on faces with a shear strength: `python tests/tables strength [n]`.
+"""True error of slide() on faces with a shear strength: `python tests/tables strength [n] [level]`.
 
 n random contacts (60) of four shapes, elastic, Kelvin and with two arms, with and without Coulomb's part, contact kept
 and lost: pulled rigidly or by a body, which in turn is still, shaken along the pull and shaken across it. Along and
-across the pull the worse error counts, over the COF of full slip, against the twin of twins/strength.py.
+across the pull the worse error counts, over the COF of full slip, against the twin of twins/strength.py. `level`: shapes
+that are level in the middle, whose springs differ there by their place alone; and a hollow one.
 """
 
 from dataclasses import replace
@@ -24,7 +25,7 @@ MATERIALS = {
     "two arms": (mdr.Prony(E, ARMS, NU), 0.0, ARMS),
 }
 PROFILES = {
-    "flat": (twin.FLAT, 1e-3),
+    "flat": twin.punch(1e-3),
     "cone": twin.cone(0.02),
     "paraboloid": twin.paraboloid(5e-3),
     "r4": twin.fourth_power(2e3),
@@ -32,14 +33,30 @@ PROFILES = {
 KINDS = ("rigid", "body", "along", "across")  #: what pulls it, and how it is shaken
 
 
-def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float, twin.Contact]]:
+def level_shape(name: str, rng: np.random.Generator) -> tuple[mdr.Indenter, twin.Shape]:
+    """A shape that is level, or hollow, in the middle."""
+    b, R, theta = rng.uniform(0.1e-3, 0.6e-3), rng.uniform(2e-3, 20e-3), rng.uniform(0.01, 0.1)
+    if name == "cone":
+        return mdr.TruncatedCone(b, theta), twin.cone(theta, b)
+    if name == "paraboloid":
+        return mdr.TruncatedParaboloid(b, R), twin.paraboloid(R, b)
+    if name == "r4":
+        return mdr.RoundedPunch(b, R), twin.rounded_punch(R, b)
+    R = b**2 / (0.3 * DEPTH)
+    return mdr.ConcavePunch(b, R), twin.concave_punch(b, R)
+
+
+def drawn(n: int, level: bool = False) -> list[tuple[str, mdr.SlidingContact, float, twin.Contact]]:
     """Random contacts and velocities, and what the twin is told of them."""
-    rng, out = np.random.default_rng(5000), []
+    rng, out = np.random.default_rng(5000 + level), []
     for i in range(n):
         shape, rheology, kind = tuple(SHAPES)[i % 4], tuple(MATERIALS)[i % 3], KINDS[i // 12 % 4]
         alpha = rng.uniform(0.05, 0.7) if rng.integers(2) else rng.uniform(1.05, 1.8)
         material, tau, arms = MATERIALS[rheology]
-        indenter, mu_0 = SHAPES[shape][0], float(0.3 * rng.integers(2))
+        indenter, mu_0, profile = SHAPES[shape][0], float(0.3 * rng.integers(2)), PROFILES[shape]
+        if level:
+            indenter, profile = level_shape(shape, rng)
+            alpha = min(alpha, 0.3) if shape == "flat" else alpha
         reach = rng.uniform(0.1, 0.8) * material.mindlin_ratio * DEPTH  # of the strength, in the middle
         tau_0 = reach * material.G_star / (2 * float(indenter.contact_radius(DEPTH)))
         motion = mdr.NormalOscillation(DEPTH, alpha * DEPTH, OMEGA)
@@ -52,11 +69,11 @@ def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float, twin.Contact]]:
             case = replace(case, shake=mdr.InPlaneOscillation(OMEGA, size[0], phase[0], **across))
         v = rng.uniform(0.05, 0.8) * (case.unit_velocity if kind in ("rigid", "body") else case.pace)
         known = twin.Contact(
-            PROFILES[shape], E, NU, tau, arms, mu_0, tau_0, OMEGA, DEPTH, alpha * DEPTH, v,
+            profile, E, NU, tau, arms, mu_0, tau_0, OMEGA, DEPTH, alpha * DEPTH, v,
             tuple(amplitude(way) for way in (case.shake_harmonics, case.harmonics_across)),
             (case.pull.coefficients, case.pull.across),
         )  # fmt: skip
-        name = f"{i}: {shape}, {rheology}, mu_0 = {mu_0}, {kind}, alpha = {alpha:.3g}, v = {v / case.pace:.3g}"
+        name = f"{i}: {type(indenter).__name__}, {rheology}, mu_0 = {mu_0}, {kind}, alpha = {alpha:.3g}, v = {v / case.pace:.3g}"
         out.append((name, case, v, known))
     return out
 
@@ -80,6 +97,6 @@ def row_of(name: str, case: mdr.SlidingContact, v_0: float, known: twin.Contact,
     return along_or_across(name, run, Friction(*(one / run.full_cof for one in truth)), run.full_cof)
 
 
-def main(n: int = 60) -> int:
+def main(n: int = 60, *words: str) -> int:
     """Print the table; 0 if all errors are within their bound."""
-    return told([row_of(*one) for one in progress(drawn(n), "strength")], 1.0)
+    return told([row_of(*one) for one in progress(drawn(n, "level" in words), "strength")], 1.0)

@@ -39,9 +39,8 @@ class Row(NamedTuple):
     gap: np.ndarray  #: (n,)
     w: np.ndarray  #: (n,) their stiffness
     x: np.ndarray = np.zeros(0)  #: (n,) their places; none where friction has no strength
-    flat: float = 0.0  #: radius of a flat face, else zero
-    c: float = 1.0  #: of g = c x**n, which tells the radius of contact
-    n: float = 1.0
+    depths: np.ndarray = np.zeros(1)  #: ascending, at which the radius of contact is known; one of a face with a rim
+    radii: np.ndarray = np.zeros(1)  #: these radii; the first is that of a level part, or of a tip, or of the rim
 
 
 class Law(NamedTuple):
@@ -144,15 +143,18 @@ def radius(row, state, z, begin):
     gap, p, last = row.gap, state.p, row.gap.size - 1
     while last >= 0 and p[last] == 0:
         last -= 1
-    if last < 0 or row.flat > 0:
-        return row.flat if last >= 0 else 0.0
+    if last < 0 or row.depths.size == 1:
+        return row.radii[0] if last >= 0 else 0.0
     edge, s = gap[last + 1], state.q[0, 2]
     near, far = s[last + 1] - z + gap[last + 1], s[last + 2] - z + gap[last + 2]
     if far > near:
         edge = min(edge, gap[last + 1] - near * (gap[last + 2] - gap[last + 1]) / (far - near))
     if last > 0 and begin[last] == 0 and begin[last - 1] == 0 and p[last - 1] > p[last]:
         edge = min(edge, gap[last] + p[last] * (gap[last] - gap[last - 1]) / (p[last - 1] - p[last]))
-    return (max(edge, gap[last]) / row.c) ** (1 / row.n)
+    edge = max(edge, gap[last])
+    k = min(max(np.searchsorted(row.depths, edge), 1), row.depths.size - 1)
+    d_0, d_1, a_0, a_1 = row.depths[k - 1], row.depths[k], row.radii[k - 1], row.radii[k]
+    return a_0 + (a_1 - a_0) * (edge - d_0) / (d_1 - d_0)
 
 
 @_inline
@@ -193,7 +195,7 @@ def period(row, law, motion, body, state):
             if of_step > 0:
                 most = law.of_pressure * p[i]
                 if law.of_radius > 0:
-                    reach = row.flat if rest > 0 else a  # a spring of a round face is let go at the edge
+                    reach = max(a, row.radii[0]) if rest > 0 else a  # a spring of a round face is let go at the edge
                     most += law.of_radius * math.sqrt(max(reach**2 - row.x[i] ** 2, 0.0))
                 f_x, f_y = rub(q, i, of_step * h, law, most, of_step * du[0], of_step * du[1])
                 share = of_step * row.w[i]

@@ -184,7 +184,7 @@ class ScaledContact:
         """Scale a case, its springs and its motion; springs that all stand alike become one if asked."""
         unit, width, rheology = case.cycle.unit, float(springs.width.sum()), case.rheology
         row, n_alike = Springs(springs.gap / unit, springs.width / width), 1
-        if lump and row.gap.max() == row.gap.min() and not case.tau_0:
+        if lump and case.gap_tells_limit and row.gap.max() == row.gap.min():
             row, n_alike = Springs(row.gap[:1], np.ones(1)), row.gap.size
         length_x = case.unit_length
         drive = Drive.of(case, length_x, steps)
@@ -222,21 +222,26 @@ class ScaledContact:
         """Bound on the friction of each spring in the period, (n,)."""
         return self.springs.w * self.limit.greatest
 
+    @property
+    def place(self) -> Array:
+        """What tells springs apart, (n,): their gaps, or, where springs of one gap differ, where they stand."""
+        return self.springs.gap if self.springs.x2 is None else self.springs.x2
+
     @cached_property
     def order(self) -> NDArray[np.intp]:
-        """Of the springs by rising gaps, (n,)."""
-        return np.argsort(self.springs.gap, kind="stable")
+        """Of the springs by rising places, (n,)."""
+        return np.argsort(self.place, kind="stable")
 
     @cached_property
     def hidden_pull(self) -> float:
         """Displacement of a pull over a period that is not told from rounding."""
         return self.drive.steps * LOST * (1.0 + float(np.abs(self.springs.gap).max()))
 
-    def unseen(self, v: float) -> float:
-        """Share of full slip lost at the edge of contact, in steps too long to see it, at a velocity of the pull."""
+    def unseen(self, top: Array) -> float:
+        """Share of full slip lost at the edge of contact, in steps too long to see it; top (n_t,): its velocity."""
         modulus = np.inf if self.law.T else 1.0 + sum(self.rheology.rho)  # a dashpot lets no limit grow like a root
         rate = 0.0 if self.faces is None else self.faces.coulomb * self.drive.z_dot[:-1]
-        return unseen(self.faces, np.asarray(rate), v, modulus, self.limit)
+        return unseen(self.faces, np.asarray(rate), top, modulus, self.limit)
 
     @cached_property
     def at_stake(self) -> float:
@@ -254,7 +259,16 @@ class ScaledContact:
     @cached_property
     def full_slip(self) -> FullSlip:
         """The body in full slip."""
-        return FullSlip(self.body, self.limit, self.drive.z_dot - self.drive.along.x_dot, self.drive.pace(0.0))
+        return FullSlip(self.body, self.limit, self._limit_rate - self.drive.along.x_dot, self.drive.pace(0.0))
+
+    @property
+    def _limit_rate(self) -> Array:
+        """Rate of the extension in full slip, (n_t + 1,), of springs that press; on a face of the one in the middle."""
+        if self.faces is None:
+            return self.drive.z_dot
+        steps, c = self.drive.steps, np.sqrt(self.faces.a2[:, 0]) * (self.limit.area > 0)
+        r = np.fft.irfft(np.fft.rfft(c) / self.rheology.response(np.arange(steps // 2 + 1)), steps)
+        return self.faces.coulomb * self.drive.z_dot + np.diff(np.append(r, r[:2])) / self.drive.h
 
     @cached_property
     def in_numbers(self) -> tuple[Kernel, Array]:

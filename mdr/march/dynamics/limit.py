@@ -55,16 +55,23 @@ class Limit:
         return cls(e, np.maximum(e[0], 0.0), greatest, *sums)
 
 
-def unseen(faces: Faces | None, rate: Array, v: float, modulus: float, limit: Limit) -> float:
+def borne(faces: Faces, gap: float, x2: float, press: Array) -> Array:
+    """The most that friction bears on a spring at the ends of steps at which L[z] is press, (n_t,): nothing in flight."""
+    strength = np.sqrt(np.maximum(np.roll(faces.a2[:, 0], -1) - x2, 0.0))
+    return np.where(press > gap, faces.coulomb * (press - gap) + strength, 0.0)
+
+
+def unseen(faces: Faces | None, rate: Array, top: Array, modulus: float, limit: Limit) -> float:
     """Share of full slip that springs lose which the edge of contact has just reached, in steps too long to see it.
 
-    Such a spring has the limit sqrt(2 a a' t), and sticks until the pull v, less that of Coulomb's part, has stretched
-    it so far: for 2 a a'/v² at this modulus. That costs a sixth of v times its square. rate (n_t,): of Coulomb's part.
+    Such a spring has the limit sqrt(2 a a' t), and sticks until its top, less Coulomb's part, has stretched it so far:
+    at the velocity v for 2 a a'/v² at this modulus. That costs a sixth of v times its square. top (n_t,): how fast the
+    tops move, whatever moves them; rate (n_t,): of Coulomb's part.
     """
     if faces is None or not np.isfinite(modulus):
         return 0.0
     a2, h = faces.a2, 2 * np.pi / len(faces.a2)
-    pull, grows = modulus * np.maximum(v - rate, 0.0), np.maximum(a2[:, 1], 0.0)
+    pull, grows = modulus * np.maximum(top - rate, 0.0), np.maximum(a2[:, 1], 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         lasts = grows / pull**2
         passed = h * grows / (2 * np.sqrt(a2[:, 0] * a2[:, 0].max()))  # share of the springs

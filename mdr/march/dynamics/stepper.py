@@ -182,6 +182,13 @@ class Stepper:
         last = first + 2 * (x_2 - z_2) * length
         return float(np.minimum(first, last).min(where=trace.area.real > 0, initial=np.inf))
 
+    def unseen(self, state: MarchState) -> float:
+        """Share of full slip lost at the edge of contact, in steps too long to see it, in the period from a state on."""
+        if self.scaled.faces is None:
+            return 0.0
+        length, x_1, x_2 = self._marched(state.copy(), 1).parts[:, 1].T
+        return self.scaled.unseen(np.abs(x_1 + length * x_2))
+
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
         scaled, n, n_steps = self.scaled, self.scaled.springs.gap.size, self.scaled.drive.steps

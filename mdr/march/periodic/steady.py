@@ -112,8 +112,7 @@ class MarchEnd:
         that are taken for springs, and, on a face, of stick at the edge of contact that no run sees.
         """
         of_depth = max(self.case.cycle.missing, self.load_error)
-        unseen = self.scaled.unseen(self.scaled.drive.pace(self.stepper.v)) if self.scaled.faces else 0.0
-        return of_depth + unseen + (0.0 if self.slips_fully else self.scaled.slow.error)
+        return of_depth + self.stepper.unseen(self.orbit.state) + (0.0 if self.slips_fully else self.scaled.slow.error)
 
     @property
     def to_begin_from(self) -> MarchEnd | None:

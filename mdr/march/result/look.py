@@ -10,10 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from mdr.march.dynamics.limit import borne
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
 from mdr.march.periodic.steady import MarchEnd, out_of_range
 from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP
+from mdr.tools.arrays import Array
 
 
 def looked_at(end: MarchEnd) -> tuple[MarchEnd, PeriodRecord, tuple[PeriodRecord, ...]]:
@@ -53,20 +55,24 @@ def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:
     """Whether some spring can stick for good with its foot at more than one place, so that the end depends on the
     start.
 
-    At v_0 = 0, with x the displacement of its top, -c the place of its foot and z - gap its compression, the force
-    L[x] + c must stay within L[z] - gap. More than one c does so if 2 gap < min L[z - x] + min L[z + x].
+    At v_0 = 0, with x the displacement of its top, -c the place of its foot and R what friction bears, the force L[x] + c
+    must stay within R. More than one c does so if 0 < min(R - L[x]) + min(R + L[x]). By Coulomb's law R is L[z] - gap,
+    and the deepest spring tells; on a face with a strength any spring may.
     """
     scaled = end.scaled
     if end.v_0 != 0:
         return False
-    top, z = account.y[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:]
+    top, z, springs = account.y[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:], scaled.springs
     forces = np.fft.rfft([z, top.real, top.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
     press, along, across = np.fft.irfft(forces, scaled.drive.steps)
-    gap = float(scaled.springs.gap.min())
-    if scaled.faces:  # of the spring in the middle
-        share, strength = scaled.faces.coulomb, np.sqrt(np.roll(scaled.faces.a2[:, 0], -1))
-        gap, press = share * gap, share * press + strength
-    if scaled.n_axes == 2:  # a foot so at rest that the force goes about zero
-        away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
-        return float((press - away).min()) > gap
-    return float((press - along).min() + (press + along).min()) > 2 * gap
+    # of a foot so at rest that the force goes about zero
+    away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
+
+    def holds(R: Array, less: float = 0.0) -> bool:
+        if scaled.n_axes == 2:
+            return float((R - away).min()) > less
+        return float((R - along).min() + (R + along).min()) > 2 * less
+
+    if scaled.faces is None or springs.x2 is None:
+        return holds(press, float(springs.gap.min()))
+    return any(holds(borne(scaled.faces, *one, press)) for one in zip(springs.gap, springs.x2, strict=True))
