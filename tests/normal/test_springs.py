@@ -1,5 +1,7 @@
 """The springs stand where sums over them are exact, however thin the edge band is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from conftest import SHAPES, bowl, contact
@@ -93,6 +95,14 @@ def test_kinks_cut_the_row(alpha):
     assert_sums_are_exact(case, springs)
     for kink in Kinked.kinks:
         assert_allclose(springs.width[springs.x < kink].sum() / 2, kink, rtol=1e-12)
+
+
+def test_springs_of_one_gap_are_two_where_that_tells_what_they_bear():
+    """On a level face a shear strength bears less the further out they stand."""
+    b = 3e-4
+    case = case_of(mdr.TruncatedCone(b=b, theta=0.02), 0.1, 0.0)
+    level = [int(np.sum(SpringArray.of(replace(case, tau_0=tau_0), 64).x < b)) for tau_0 in (0.0, 1e4)]
+    assert level == [2, 21]  # a third of them, as of the two other parts
 
 
 def test_a_shape_of_many_kinks_needs_more_springs():

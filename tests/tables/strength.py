@@ -2,8 +2,8 @@
 
 n random contacts (60) of four shapes, elastic, Kelvin and with two arms, with and without Coulomb's part, contact kept
 and lost: pulled rigidly or by a body, which in turn is still, shaken along the pull and shaken across it. Along and
-across the pull the worse error counts, over the COF of full slip, against the twin of twins/strength.py. `level`: shapes
-that are level in the middle, whose springs differ there by their place alone; and a hollow one.
+across the pull the worse error counts, over the COF of full slip, against the twin of twins/strength.py. `level`:
+shapes that are level in the middle, whose springs differ there by their place alone; and a hollow one.
 """
 
 from dataclasses import replace
@@ -73,7 +73,8 @@ def drawn(n: int, level: bool = False) -> list[tuple[str, mdr.SlidingContact, fl
             tuple(amplitude(way) for way in (case.shake_harmonics, case.harmonics_across)),
             (case.pull.coefficients, case.pull.across),
         )  # fmt: skip
-        name = f"{i}: {type(indenter).__name__}, {rheology}, mu_0 = {mu_0}, {kind}, alpha = {alpha:.3g}, v = {v / case.pace:.3g}"
+        name = f"{i}: {type(indenter).__name__}, {rheology}, mu_0 = {mu_0}, {kind}, alpha = {alpha:.3g}"
+        name += f", v = {v / case.pace:.3g}"
         out.append((name, case, v, known))
     return out
 

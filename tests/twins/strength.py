@@ -1,8 +1,9 @@
 """The independent twin of a contact with a shear strength: springs in tiny steps (tiny_steps.py), and nothing else.
 
 Nothing here comes from the library. A shape is its slope f'(r) outside of a level part, and its image in one dimension
-g = x integral of f'(x sin psi) over psi (Popov and Hess 2015). Springs of a cell of the width dx at +x and at -x have the
-stiffness 2 dx E* in the normal direction and 2 dx G* in the plane, with E* = E/(1 - nu²), G* = 4 G/(2 - nu). They bear
+g = x integral of f'(x sin psi) over psi (Popov and Hess 2015). Springs of a cell of the width dx at +x and at -x have
+the stiffness 2 dx E* in the normal direction and 2 dx G* in the plane, with E* = E/(1 - nu²), G* = 4 G/(2 - nu). They
+bear
 
     f_z = 2 dx E* L[s],    f = 2 dx G* L[e],    |f| <= mu_0 f_z + 4 tau_0 sqrt(a² - x²) dx,
 

@@ -56,7 +56,7 @@ class Limit:
 
 
 def borne(faces: Faces, gap: float, x2: float, press: Array) -> Array:
-    """The most that friction bears on a spring at the ends of steps at which L[z] is press, (n_t,): nothing in flight."""
+    """The most that a spring bears at the ends of steps at which L[z] is press, (n_t,): nothing in flight."""
     strength = np.sqrt(np.maximum(np.roll(faces.a2[:, 0], -1) - x2, 0.0))
     return np.where(press > gap, faces.coulomb * (press - gap) + strength, 0.0)
 

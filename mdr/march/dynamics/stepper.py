@@ -183,7 +183,7 @@ class Stepper:
         return float(np.minimum(first, last).min(where=trace.area.real > 0, initial=np.inf))
 
     def unseen(self, state: MarchState) -> float:
-        """Share of full slip lost at the edge of contact, in steps too long to see it, in the period from a state on."""
+        """Share of full slip lost at the edge of contact in steps too long to see it, in the period from a state on."""
         if self.scaled.faces is None:
             return 0.0
         length, x_1, x_2 = self._marched(state.copy(), 1).parts[:, 1].T

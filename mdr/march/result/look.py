@@ -55,9 +55,9 @@ def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:
     """Whether some spring can stick for good with its foot at more than one place, so that the end depends on the
     start.
 
-    At v_0 = 0, with x the displacement of its top, -c the place of its foot and R what friction bears, the force L[x] + c
-    must stay within R. More than one c does so if 0 < min(R - L[x]) + min(R + L[x]). By Coulomb's law R is L[z] - gap,
-    and the deepest spring tells; on a face with a strength any spring may.
+    At v_0 = 0, with x the displacement of its top, -c the place of its foot and R what friction bears, the force
+    L[x] + c must stay within R. More than one c does so if 0 < min(R - L[x]) + min(R + L[x]). By Coulomb's law R is
+    L[z] - gap, and the deepest spring tells; on a face with a strength any spring may.
     """
     scaled = end.scaled
     if end.v_0 != 0:
