@@ -5,12 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import SHAPES
-from numpy.testing import assert_allclose
 from tables import strength as table
 
 import mdr
-from mdr.march.dynamics.stepper import Stepper
-from mdr.march.periodic.search import at_other_resolution
 from mdr.march.periodic.steady import at_hand, steady
 from mdr.march.result.refinement import resolution_of
 
@@ -132,15 +129,6 @@ def test_a_march_knows_where_full_slip_of_a_punch_ends(material):
     end = scaled.full_slip.end * scaled.units.speed
     # a parabola through the nodes of arms misses the greatest rate by h²/8 of its bend
     assert end == pytest.approx(mdr.full_slip_critical_velocity(case), rel=1e-5)
-
-
-def test_a_state_passes_to_other_springs_where_they_stand():
-    """Those of a punch have one gap, and not one state."""
-    case = mdr.SlidingContact(SHAPES["flat"][0], ELASTIC, 0.05, MOTION, tau_0=5e4)
-    coarse, fine = (at_hand(case, resolution_of(case, n, 64))[1] for n in (32, 128))
-    moved, _ = at_other_resolution(Stepper(coarse, 1.0).full_slip(), None, coarse, fine)
-    # beyond the last of 32 springs, (pi/64)²/4 of the radius from the edge, a root has come down from sqrt(2) pi/128
-    assert_allclose(moved.e, fine.limit.s, rtol=0, atol=0.035 * fine.limit.s.max())
 
 
 def test_what_no_step_sees_follows_from_the_velocity_of_the_top():

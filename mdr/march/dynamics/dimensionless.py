@@ -222,15 +222,10 @@ class ScaledContact:
         """Bound on the friction of each spring in the period, (n,)."""
         return self.springs.w * self.limit.greatest
 
-    @property
-    def place(self) -> Array:
-        """What tells springs apart, (n,): their gaps, or, where springs of one gap differ, where they stand."""
-        return self.springs.gap if self.springs.x2 is None else self.springs.x2
-
     @cached_property
     def order(self) -> NDArray[np.intp]:
-        """Of the springs by rising places, (n,)."""
-        return np.argsort(self.place, kind="stable")
+        """Of the springs by rising gaps, (n,)."""
+        return np.argsort(self.springs.gap, kind="stable")
 
     @cached_property
     def hidden_pull(self) -> float:

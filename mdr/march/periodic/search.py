@@ -86,9 +86,9 @@ def at_other_resolution(
 ) -> tuple[MarchState, SlowMotions | None]:
     """A state of a march with other springs or steps, and the slow motions about it, on those of this one."""
     parts = [state.x[None]] if motions is None else [state.x[None], motions.before, motions.after]
-    xs = np.concatenate(parts)
-    if not np.array_equal(of.place, on.place):
-        xs = on_other_springs(xs, of.place, of.order, on.place, on.n_axes)
+    xs, gap = np.concatenate(parts), of.springs.gap
+    if not np.array_equal(gap, on.springs.gap):
+        xs = on_other_springs(xs, gap, of.order, on.springs.gap, on.n_axes)
     if motions is not None:
         k = len(motions.before)
         motions = SlowMotions(xs[1 : 1 + k], xs[1 + k :])
