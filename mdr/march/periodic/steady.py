@@ -182,7 +182,8 @@ def alike_to(end: MarchEnd) -> float:
     the last that does not slip back has a gap that exceeds that of the deepest by the least (f + L[s])/2 of a period.
     """
     scaled, stepper = end.scaled, end.stepper
-    if scaled.body.rigid or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
+    as_one = scaled.body.rigid or scaled.springs.gap.size == 1
+    if as_one or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
         return np.inf
     deepest = int(np.argmin(scaled.springs.gap))
     gap = float(scaled.springs.gap[deepest])

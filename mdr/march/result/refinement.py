@@ -4,13 +4,16 @@ A step is exact but for the parabolas that motion and body take in it, and a sum
 places along the row where stick turns to slip. Both errors are of second order or better in the numbers of steps and
 springs, though they do not fall evenly, as events come at any place in a step. So four coarser runs, companions, go
 beside a run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both; (4) three eighths of
-both. Run minus (1) tells the error of the steps, (1) minus (2) that of the springs, which counts one and a half times;
-at second order each is three times the true error. The bound is their sum; on a face with a strength both count one and
-a half times more. Two runs may agree by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at
-second order, nor less than 3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in
-the plane, less than a tenth of what is asked for. Added is what no companion shows. Where all this is more than is
-asked for, steps or springs are doubled, as these companions tell, until a run would be too dear. Once, in the place of
-more springs, the row is cut where the run shows that they begin to slip back.
+both. Each has one step more, so that no two divide the period at the same instants: what an event just behind a
+common instant does would be missed by all alike. Where the run shows that springs begin to slip back at a place of the
+row, (2) to (4) have a cut there: rows of which no spring stands beyond it would agree. Run minus (1) tells the error of
+the steps, (1) minus (2) that of the springs, which counts one and a half times; at second order each is three times the
+true error. The bound is their sum; on a face with a strength both count one and a half times more. Two runs may agree
+by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than
+3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in the plane, less than a tenth
+of what is asked for. Added is what no companion shows. Where all this is more than is asked for, steps or springs are
+doubled, as these companions tell, until a run would be too dear. Once, in the place of more springs, the row is cut
+where the run shows that they begin to slip back.
 
 Where a run has found its periodic state, the next one begins its search there.
 """
@@ -152,11 +155,13 @@ class Companions(NamedTuple):
     less: Resolution  #: three quarters of half of both
 
 
-def companions(resolution: Resolution) -> Companions:
-    """Those beside a run."""
+def companions(resolution: Resolution, alike: float | None = None) -> Companions:
+    """Those beside a run. alike: gap at which the rows of fewer springs are cut, if not that of the run."""
     shares = (4, 8), (4, 4), (6, 6), (3, 3)  # eighths of steps and springs
     n_t, n = resolution.steps, resolution.n_springs
-    return Companions(*(resolution.of_size(k * n_t // 8, m * n // 8) for k, m in shares))
+    cut = resolution if alike is None else resolution._replace(alike=alike)
+    rows = (resolution, cut, cut, cut)
+    return Companions(*(row.of_size(k * n_t // 8 + 1, m * n // 8) for row, (k, m) in zip(rows, shares, strict=True)))
 
 
 def resolution_of(
@@ -216,17 +221,22 @@ def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed)
-        may_be_cut = resolution.alike == np.inf and _serves_a_cut(resolution.n_springs, runs.case)
-        if finer.n_springs > resolution.n_springs and may_be_cut and (alike := alike_to(main)) < np.inf:
+        if finer.n_springs > resolution.n_springs and (alike := _to_be_cut(main)) is not None:
             finer = resolution._replace(alike=alike)
         if finer == resolution:
             return finest
         resolution = finer
 
 
-def _serves_a_cut(n_springs: int, case: SlidingContact) -> bool:
-    """Whether the companion of fewest springs still has two for each piece of a row with one more cut."""
-    return max(3 * n_springs // 8, 16) >= 2 * (len(case.indenter.kinks) + 3)
+def _to_be_cut(main: MarchEnd) -> float | None:
+    """Gap at which the row of a run is to be cut; None where it is, or nothing asks for it, or where the companion of
+    fewest springs would not have two for each piece of it.
+    """
+    fewest = max(3 * main.resolution.n_springs // 8, 16)
+    if main.resolution.alike < np.inf or fewest < 2 * (len(main.case.indenter.kinks) + 3):
+        return None
+    alike = alike_to(main)
+    return alike if alike < np.inf else None
 
 
 def _finer(main: MarchEnd, missed: Missed) -> Resolution:
@@ -271,17 +281,19 @@ class Missed(NamedTuple):
 
 def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
     """Errors of a run, as its companions tell them."""
-    beside = companions(main.resolution)
+    beside, as_one = companions(main.resolution, _to_be_cut(main)), main.scaled.springs.gap.size == 1
+    if as_one:  # all springs of a punch: (1) and (2) would be one run, and are of different steps instead
+        beside = beside._replace(steps=beside.half, half=beside.half.of_size(beside.half.steps + 2))
     steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
-    by_chance = [Companion(_apart(main, more), BY_CHANCE)]
+    by_chance = [Companion(_apart(main, more), BY_CHANCE), Companion(_apart(main, half))]
     _, less = at_hand(runs.case, beside.less)
     if less.body.light == half.scaled.body.light:  # else a body moves by another scheme there
         by_chance += [Companion(_apart(half, runs.beside(half, beside.less)), BY_CHANCE / MOST_GAINED)]
     if runs.case.moves_across:
         by_chance += [Companion(0.0, least=AGREED * main.resolution.accuracy)]
     of_steps = UNEVENLY if main.scaled.faces else 1.0  # a limit that bends like a root is met with the order 3/2
-    by_steps, by_springs = Companion(_apart(main, steps), of_steps), Companion(_apart(steps, half), of_steps * UNEVENLY)
-    return Missed(by_steps, by_springs, tuple(by_chance))
+    by_springs = Companion(0.0 if as_one else _apart(steps, half), of_steps * UNEVENLY)
+    return Missed(Companion(_apart(main, steps), of_steps), by_springs, tuple(by_chance))
 
 
 def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
