@@ -24,7 +24,7 @@ from mdr.closed_forms.across import is_across_alone, static_across
 from mdr.closed_forms.held_body import CLOSE, held_forward
 from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, has_closed_form
 from mdr.normal.followed_force import N_STEPS
-from mdr.normal.normal_force import followed, full_cof, mean_normal_force, normal_force
+from mdr.normal.normal_force import followed, full_cof, known_harmonics, mean_normal_force, normal_force
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 
@@ -116,5 +116,8 @@ def _slips_at_any_pull(case: SlidingContact) -> bool:
 
 def normal_force_harmonics(case: SlidingContact, n_t: int = N_STEPS) -> NDArray[np.complex128]:
     """F_n [N] for n = 0 ... n_t/2 of F_N(t) = sum over all n of F_n exp(i n omega t), in full slip."""
-    F_N = normal_force(resolved(case), 2 * np.pi * np.arange(n_t) / n_t)
-    return np.asarray(np.fft.rfft(F_N) / n_t)
+    case = resolved(case)
+    if (known := known_harmonics(case)) is not None:
+        F_n = np.append(known[0], 0.5 * known[1])[: n_t // 2 + 1]
+        return np.pad(F_n, (0, n_t // 2 + 1 - F_n.size))
+    return np.asarray(np.fft.rfft(normal_force(case, 2 * np.pi * np.arange(n_t) / n_t)) / n_t)

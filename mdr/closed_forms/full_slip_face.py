@@ -4,7 +4,8 @@ In full slip L[e] is the limit of friction, and L is linear: e = mu_0 kappa s + 
 in contact and nothing else. So a spring slips for good where v_0 is above the greatest mu_0 kappa u_z' + r' - y'.
 A flat face that keeps contact has a constant r, and nothing is added. On a curved elastic face a spring that the edge
 of contact has just reached may bear a force that grows like the root of time, faster than any pull: it always sticks.
-On a dashpot, r + tau r' = (2 tau_0/G*) sqrt(a² - x²), r' has a bound.
+On a dashpot, r + tau r' = (2 tau_0/G*) sqrt(a² - x²), r' has a bound. Arms beside the dashpot make of r a sum of such,
+r = sum b_k r_k, with the relaxation times of a spring that is left alone in the place of tau.
 
 Springs stand for a face with a strength in the mean alone. On a half-space of nu = 0 the strength on a disc moves the
 surface at the radius x by (4 tau_0/(pi G*)) a E(x/a), E the complete elliptic integral, and its rate at the edge grows
@@ -19,16 +20,17 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.indenters.mapping.quadrature import double_exponential
-from mdr.normal.normal_force import contact_radius, corners, edge_of
+from mdr.normal.normal_force import contact_radius, corners, pressing_edge
 from mdr.tools.arrays import EXACT, Array
+from mdr.tools.secular import secular_zeros
 
 PHASES, PLACES = 1024, 96  #: at which rates are looked at; from the best of these on the greatest is sought
 FINE, MOST_PHASES = 60.0, 2**15  #: of a half-space: phases times omega tau, ten in a relaxation time; phases at most
 
 
 def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
-    """Greatest rest(phase) + r' [m/s] of any spring in contact on a Kelvin material, where the edge of contact moves.
-    rest: the rates that all springs have.
+    """Greatest rest(phase) + r' [m/s] of any spring in contact on a material with a dashpot, where the edge of contact
+    moves. rest: the rates that all springs have.
     """
     from scipy.optimize import minimize
 
@@ -36,10 +38,10 @@ def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float
     a = contact_radius(case, phase)
     x = _places(a)
     total = rest(phase)[:, None] + _rates(case, a, x, np.sqrt(np.maximum(a[:, None] ** 2 - x**2, 0.0)))
-    k, i = np.unravel_index(int(np.argmax(total)), total.shape)
+    (k, i), modes = np.unravel_index(int(np.argmax(total)), total.shape), _compliance(case)
 
     def less(at: Array) -> float:
-        return -float(rest(at[1:])[0]) - _rate(case, float(at[0]) * a.max(), float(at[1]))
+        return -float(rest(at[1:])[0]) - _rate(case, float(at[0]) * a.max(), float(at[1]), *modes)
 
     start, size = np.array([x[i] / a.max(), phase[k]]), np.array([0.01, 2 * phase[1]])
     corners_of = start + np.array([[0.0, 0.0], [-size[0], 0.0], [0.0, size[1]]])
@@ -72,49 +74,59 @@ def _places(a: Array) -> Array:
     return np.unique(np.concatenate([a.max() * share, a.min() + (a.max() - a.min()) * share**2]))
 
 
+def _compliance(case: SlidingContact) -> tuple[Array, Array]:
+    """Shares b_k, and times T_k over 1/omega, in which a spring yields to a steady force: 1/L of exp(s t) is
+    sum b_k/(1 + s T_k). On a Kelvin material one, of tau.
+    """
+    rho, theta = np.array(case.rheology.rho), np.array(case.rheology.theta)
+    order = np.argsort(-theta)
+    mu = secular_zeros(1.0, case.T, rho[order], 1 / theta[order])
+    return 1 / mu / (case.T + np.sum(rho * theta / (1 - np.multiply.outer(mu, theta)) ** 2, axis=1)), 1 / mu
+
+
 def _rates(case: SlidingContact, a: Array, x: Array, c: Array) -> Array:
-    """r' [m/s] (n_t, n_x) of r + tau r' = (2 tau_0/G*) c at places x in contact; -inf elsewhere. c goes on lines."""
-    n = len(c)
-    step = 2 * np.pi / n
-    decay, mean = np.exp(-step / case.T), -np.expm1(-step / case.T) * case.T / step
-    into = c * (mean - decay) + np.roll(c, -1, axis=0) * (1 - mean)
-    r = np.zeros_like(c)
-    for k in (*range(n), *range(n)):  # the second period begins where the first ends, and repeats
-        r[(k + 1) % n] = decay * r[k] + into[k]
-        if k == n - 1:
-            r[0] /= 1 - decay**n
-    return np.where(x < a[:, None], _unit(case) * (c - r) / case.T, -np.inf)
+    """r' [m/s] (n_t, n_x) of L[r] = (2 tau_0/G*) c at places x in contact; -inf elsewhere. c goes on lines."""
+    step, rate = 2 * np.pi / len(c), np.zeros_like(c)
+    for share, T in zip(*_compliance(case), strict=True):
+        decay, into = np.exp(-step / T), -np.expm1(-step / T)
+        into = c * (into * T / step - decay) + np.roll(c, -1, axis=0) * (1 - into * T / step)
+        r = np.zeros_like(c)
+        for k in (*range(len(c)), *range(len(c))):  # the second period begins where the first ends, and repeats
+            r[(k + 1) % len(c)] = decay * r[k] + into[k]
+            if k == len(c) - 1:
+                r[0] /= -np.expm1(-2 * np.pi / T)
+        rate += share / T * (c - r)
+    return np.where(x < a[:, None], _unit(case) * rate, -np.inf)
 
 
 def _unit(case: SlidingContact) -> float:
     return 2 * case.tau_0 / case.material.G_star * case.omega
 
 
-def _rate(case: SlidingContact, x: float, phase: float) -> float:
-    """r' [m/s] of the spring at x on a dashpot; -inf where it is not in contact."""
-    T, rule, cycle = case.T, double_exponential(), case.cycle
+def _rate(case: SlidingContact, x: float, phase: float, shares: Array, times: Array) -> float:
+    """r' [m/s] of the spring at x on a dashpot; -inf where it is not in contact. shares, times: of `_compliance`."""
+    rule, cycle = double_exponential(), case.cycle
     now = float(contact_radius(case, np.array(phase)))
     if not abs(x) < now:
         return -np.inf
     gap = (float(case.indenter.profile_1d(abs(x))) - cycle.u_z0) / cycle.unit
-    touches, leaves = edge_of(case).crossings(gap)
+    touches, leaves = pressing_edge(case).crossings(gap)
     begin = phase - min([(phase - one) % (2 * np.pi) for one in touches], default=2 * np.pi)
 
-    def of_stretch(low: float, high: float) -> float:
-        """Part of r at `high` that a stretch of contact from `low` on has left."""
+    def of_stretch(low: float, high: float, later: float, repeats: bool) -> float:
+        """Rate that a stretch of contact takes off so much later; repeats: in this period and all before."""
         cuts = low + np.mod(corners(case) - low, 2 * np.pi)
         cuts = np.concatenate([[low], cuts[(cuts > low) & (cuts < high)], [high]])
+        weights = shares / times**2 / (-np.expm1(-2 * np.pi / times) if repeats else 1.0)
 
         def left(at: Array) -> Array:
             c = np.sqrt(np.maximum(contact_radius(case, at) ** 2 - x * x, 0.0))
-            return np.asarray(c * np.exp((at - high) / T) / T)
+            return np.asarray(c * (np.exp(-np.divide.outer(high + later - at, times)) @ weights))
 
         return float(rule.integral(left, cuts))
 
-    r, forgotten = of_stretch(begin, phase), -np.expm1(-2 * np.pi / T)
-    if not touches:
-        r /= forgotten
+    rate = np.sqrt(now * now - x * x) * np.sum(shares / times) - of_stretch(begin, phase, 0.0, not touches)
     for touch in touches:  # what is left of the contacts before
         leave = touch + min((one - touch) % (2 * np.pi) for one in leaves)
-        r += of_stretch(touch, leave) * np.exp(-((phase - leave) % (2 * np.pi)) / T) / forgotten
-    return float(_unit(case) * (np.sqrt(now * now - x * x) - r) / T)
+        rate -= of_stretch(touch, leave, (phase - leave) % (2 * np.pi), True)
+    return float(_unit(case) * rate)

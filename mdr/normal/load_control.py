@@ -38,6 +38,8 @@ from mdr.tools.checks import instance, positive
 from mdr.tools.memoise import remembered
 
 N_HARMONICS = N_STEPS // 8  #: of the depth, an eighth of the instants at which the force is known
+#: amplitude of a force over its mean, up to which its linear law misses less than a difference of forces does
+LINEAR = float(np.sqrt(EPS))
 
 
 def static_depth(indenter: Indenter, material: Material, F_z: float) -> float:
@@ -159,14 +161,9 @@ def depth_under_load(shape: Indenter, material: Material, motion: LoadOscillatio
     bounces in another rhythm.
     """
     elastic = motion.m_z == 0 and not Rheology.periodic(material, motion.omega).remembers
-    if elastic and not _is_linear(motion):
+    if elastic and motion.dF_z > LINEAR * motion.F_z0:
         return _quasi_static(shape, material, motion)
     return _balanced(shape, material, motion)
-
-
-def _is_linear(motion: LoadOscillation) -> bool:
-    """Whether the amplitude is so small that its linear law misses less of it than the rounding of a solved depth."""
-    return bool(motion.dF_z <= np.sqrt(EPS) * motion.F_z0)
 
 
 def _quasi_static(shape: Indenter, material: Material, motion: LoadOscillation) -> Cycle:
@@ -200,7 +197,7 @@ def _balanced(shape: Indenter, material: Material, motion: LoadOscillation) -> C
     load[:2] = motion.F_z0, motion.dF_z / 2
     start = np.zeros(N_HARMONICS + 1, dtype=complex)
     start[:2] = d_0, motion.dF_z / 2 / impedance[1]
-    if _is_linear(motion):
+    if motion.dF_z <= LINEAR * motion.F_z0:
         return _cycle_of(start, omega)
 
     def missing(u: NDArray[np.complex128]) -> NDArray[np.complex128]:

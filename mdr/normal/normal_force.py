@@ -7,12 +7,15 @@ law alone,
     F_N = E* [2 a(g_c) (u_z - g_c + tau u_z') + F(g_c)/E*].
 
 What arms add to it is followed spring by spring: the difference between the material and the same one without its arms
-(followed_force.py). Under an oscillating load the force is known beforehand, F_N = F_z(t) - m_z u_z''.
+(followed_force.py). Two forces are known beforehand, harmonic by harmonic: that under an oscillating load,
+F_N = F_z(t) - m_z u_z'', and one that oscillates by little, by its linear law K_z(n omega) u_n. Of the difference of
+two forces that nearly agree too much is rounding.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +28,7 @@ from mdr.indenters.mapping.quadrature import double_exponential
 from mdr.materials.operator import Rheology
 from mdr.normal.contact_edge import ContactEdge
 from mdr.normal.followed_force import N_STEPS, NormalCycle, followed_springs, normal_cycle
+from mdr.normal.load_control import LINEAR
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.memoise import remembered
@@ -62,9 +66,8 @@ def edge_of(case: SlidingContact) -> ContactEdge:
 
 def normal_force(case: SlidingContact, phase: Array) -> Array:
     """F_N [N] in full slip at phases omega t of any shape, of a case of known depth."""
-    if case.oscillation.load is not None:
-        mean, F_n = load_harmonics(case)
-        return mean + harmonic_sum(F_n, phase)
+    if (known := known_harmonics(case)) is not None:
+        return known[0] + harmonic_sum(known[1], phase)
     F_N = _without_arms(case, phase)[0]
     return np.maximum(F_N + _of_arms(case)(phase) if case.material.contact_arms else F_N, 0)
 
@@ -73,8 +76,8 @@ def normal_force_rate(case: SlidingContact, phase: Array, slope: Callable[[Array
     """dF_N/dphase [N], with 2 E* a(g_c) [d(u_z + tau u_z') + (u_z - g_c + tau u_z') d ln a(g_c)]: only the contact
     radius has no derivative in closed form, which `slope` answers from its values at the phases.
     """
-    if case.oscillation.load is not None:
-        F_n = load_harmonics(case)[1]
+    if (known := known_harmonics(case)) is not None:
+        F_n = known[1]
         return harmonic_sum(1j * np.arange(1, F_n.size + 1) * F_n, phase)
     n, cycle = np.arange(1, case.cycle.cos.size + 1), case.cycle
     _, k_zc, above = _without_arms(case, phase)
@@ -101,27 +104,56 @@ def _of_arms(case: SlidingContact) -> CubicSpline:
     return CubicSpline(2 * np.pi * np.arange(added.size + 1) / added.size, [*added, added[0]], bc_type="periodic")
 
 
-def load_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]]:
-    """Mean [N] and harmonics F_n [N], n = 1 ... N, of F_N = F_z(t) - m_z u_z'' under a load."""
+def known_harmonics(case: SlidingContact) -> tuple[float, NDArray[np.complex128]] | None:
+    """Mean [N] and harmonics F_n [N], n = 1 ... N, of F_N where they are known beforehand; None elsewhere."""
     load, cycle = case.oscillation.load, case.cycle
-    if not isinstance(load, LoadOscillation):
-        return getattr(load, "F_z0", 0.0), np.zeros(0, dtype=complex)
     n = np.arange(1, cycle.cos.size + 1)
-    F_n = load.m_z * case.omega**2 * cycle.unit * n**2 * cycle.harmonics
-    F_n[case.repeats[0] - 1] += load.dF_z
-    return load.F_z0, F_n
+    if isinstance(load, LoadOscillation):
+        F_n = load.m_z * case.omega**2 * cycle.unit * n**2 * cycle.harmonics
+        F_n[case.repeats[0] - 1] += load.dF_z
+        return load.F_z0, F_n
+    mean = float(case.indenter.force(case.working_depth, case.material.E_star)) if case.k_zc else 0.0
+    mean = mean if load is None else load.F_z0
+    F_n = case.dynamic_stiffness(case.omega * n) * cycle.unit * cycle.harmonics
+    return (mean, F_n) if np.abs(F_n).sum() < LINEAR * mean else None
 
 
 def contact_radius(case: SlidingContact, phase: Array) -> Array:
     """Radius of contact [m] at phases omega t of any shape, of a case of known depth: up to where springs press."""
     cycle = case.cycle
-    edge = _followed_edge(case)(np.mod(phase, 2 * np.pi)) if case.material.contact_arms else edge_of(case).gap(phase)
-    depth = cycle.u_z0 + cycle.unit * edge
+    depth = cycle.u_z0 + cycle.unit * pressing_edge(case).gap(phase)
     return np.asarray(case.indenter.contact_radius(np.maximum(depth, 0.0)))
 
 
+@dataclass(frozen=True, eq=False)
+class FollowedEdge:
+    """The edge of the contact of a material with arms, as far as springs were followed."""
+
+    curve: PchipInterpolator  #: gap over the phase
+    least: float  #: gap of the deepest place; below it where contact is lost
+
+    def gap(self, phase: Array) -> Array:
+        """Gap of the spring at the edge, at phases of any shape."""
+        gap = self.curve(np.mod(phase, 2 * np.pi))
+        return np.where(gap > self.least, gap, self.least - SAME)
+
+    def crossings(self, gap: float) -> tuple[list[float], list[float]]:
+        """Phases at which the spring of a gap touches, and at which it leaves."""
+        if gap < self.least - SAME:
+            return [], []
+        at = self.curve.solve(max(gap, self.least + SAME), extrapolate=False)  # it is at the least gap while in flight
+        at = at[(at >= 0) & (at < 2 * np.pi)]
+        rises = self.curve(at, 1) > 0
+        return at[rises].tolist(), at[~rises].tolist()
+
+
+def pressing_edge(case: SlidingContact) -> ContactEdge | FollowedEdge:
+    """The edge of the contact, with what arms change of it."""
+    return _followed_edge(case) if case.material.contact_arms else edge_of(case)
+
+
 @remembered(maxsize=8)
-def _followed_edge(case: SlidingContact) -> PchipInterpolator:
+def _followed_edge(case: SlidingContact) -> FollowedEdge:
     """Gap at the edge of contact over the phase, with arms: springs at close depths are followed, and the phases at
     which each touches and is let go are points of the curve.
     """
@@ -143,7 +175,7 @@ def _followed_edge(case: SlidingContact) -> PchipInterpolator:
     time, at = np.unique(times % N_STEPS, return_index=True)
     place = np.concatenate([[high], [low] * case.keeps_contact, gap[touched], gap[left]])[at]
     time = np.concatenate([time - N_STEPS, time, time + N_STEPS])
-    return PchipInterpolator(2 * np.pi / N_STEPS * time, np.tile(place, 3))
+    return FollowedEdge(PchipInterpolator(2 * np.pi / N_STEPS * time, np.tile(place, 3)), low)
 
 
 def first_radius(case: SlidingContact) -> float:
@@ -186,8 +218,8 @@ def mean_normal_force(case: SlidingContact) -> float:
     While springs slide, stick or fly their mean force is that of their mean compression: it is the same in any run.
     """
     case = resolved(case)
-    if case.oscillation.load is not None:
-        return load_harmonics(case)[0]
+    if (known := known_harmonics(case)) is not None:
+        return known[0]
     mean = _integral(case, lambda phase: _without_arms(case, phase)[0]) / (2 * np.pi)
     return mean + float(_added_by_arms(case).mean()) if case.material.contact_arms else mean
 

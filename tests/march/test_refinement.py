@@ -97,7 +97,7 @@ def test_the_bound_holds_where_runs_of_two_sizes_agree(case, v_hat):
 
 
 def test_the_bound_knows_of_springs_beyond_all_that_were_computed():
-    """They slip back between the last of the springs that keep contact and the edge of these: 16 to 48 springs agree."""
+    """They slip back between the last computed of those that keep contact and the edge of these: 16 to 48 agree."""
     case = contact("r4", 1 / 0.247044734, 0.0, 0.07611567, 0.329188008, 4.7003212e-5, nu=0.122506923)
     v_0 = 0.3089021054 * unit_of_velocity(case)
     fine, few = mdr.slide(case, v_0), mdr.slide(case, v_0, n_springs=32, steps_per_period=128)
