@@ -2,7 +2,7 @@
 
     turning [n] [bodies] [along]  true error of slide() under a shake across the pull, or along it, beside the twin
     strength [n] [level]  the same on faces with a shear strength, round or level
-    errors [n] [coarse]   true error of slide() against finer steps and springs
+    errors [n] [coarse | resonant]  true error of slide() against finer steps and springs
     theorems [n]          what no settled run may contradict, on random bodies
     ways [n] [quick]      one motion written in six ways: no function may tell them apart
 

@@ -1,8 +1,10 @@
-"""True error of slide() against 16 times the steps and 4 times the springs: `python tests/tables errors [n] [coarse]`.
+"""True error of slide() against 16 times the steps and 4 times the springs: `python tests/tables errors [n] [coarse]`,
+or `[resonant]`.
 
 n random contacts (100), half of them under a body, one in ten under a load that may lift off. The reference has errors
 of its own, 1/256 and 1/16 of those of step and springs, and its settling, which is its doubt. `coarse`: with 32 to 512
 steps and 32 to 384 springs, drawn at random, beside the run with default knobs, whose cof_error is the doubt.
+`resonant`: bodies at and near resonances of body, contact and harmonics, with light and heavy dampers.
 """
 
 import contextlib
@@ -44,6 +46,23 @@ def drawn(n: int) -> list[tuple[str, mdr.SlidingContact, float]]:
     return out
 
 
+def resonant(n: int) -> list[tuple[str, mdr.SlidingContact, float]]:
+    """Random bodies whose natural frequency, alone or on the contact, is near a multiple of that of the oscillation."""
+    out = []
+    for i in range(n):
+        rng = np.random.default_rng((7, i))
+        shape, alpha = "flat" if rng.uniform() < 0.5 else tuple(SHAPES)[int(rng.integers(4))], 0.2 * 10 ** rng.uniform()
+        T, k_ratio = float(rng.choice([0, 1, 1]) * 0.05 * 60 ** rng.uniform()), 0.05 * 200 ** rng.uniform()
+        ratio = rng.choice([1, 1, 1, 2, 3, 0.5]) * (1 + rng.choice([-1, 1]) * 10 ** rng.uniform(-4, -0.5))
+        ratio *= rng.choice([1, np.sqrt(k_ratio / (1 + k_ratio))])
+        zeta, v_hat = 10 ** rng.uniform(-4, -0.5), float(rng.uniform(0.05, 1.3))
+        case = contact(shape, 1 / alpha, T, k_ratio, ratio, 2 * zeta * k_ratio / ratio, nu=rng.uniform(0, 0.5))
+        name = f"{shape}, alpha = {alpha:.3g}, T = {T:.3g}, k = {k_ratio:.2g}, omega_0 = {ratio:.5g}, zeta = {zeta:.2g}"
+        v_c = mdr.full_slip_critical_velocity(case)
+        out.append((f"{name}, v = {v_hat:.3g}", case, v_hat * (v_c if rng.uniform() < 0.75 else case.unit_velocity)))
+    return out
+
+
 def load_of(case: mdr.SlidingContact, rng: np.random.Generator) -> mdr.LoadOscillation:
     """An oscillating load of the mean force at the mean depth, with a mass that lets it lift off."""
     shape, E_star, motion = case.indenter, case.material.E_star, case.oscillation
@@ -73,8 +92,8 @@ def refined(name: str, case: mdr.SlidingContact, v_0: float) -> Row:
 def main(n: int = 100, knobs: str = "") -> int:
     """Print the table; 0 if at least 99 of 100 errors are within their bound, 97 with coarse knobs."""
     rng, rows = np.random.default_rng(3), []
-    for one in progress(drawn(n), "errors"):
+    for one in progress(resonant(n) if knobs == "resonant" else drawn(n), "errors"):
         own = int(32 * 12 ** rng.uniform()), int(32 * 16 ** rng.uniform())
         with contextlib.suppress(ValueError):  # a contact that is refused has no row
-            rows.append(coarse(*one, own) if knobs else refined(*one))
-    return told(rows, 0.97 if knobs else 0.99)
+            rows.append(coarse(*one, own) if knobs == "coarse" else refined(*one))
+    return told(rows, 0.97 if knobs == "coarse" else 0.99)
