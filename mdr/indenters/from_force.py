@@ -25,6 +25,7 @@ from mdr.tools.checks import finite_array, not_negative, plain, positive_array
 from mdr.tools.csv_header import fault
 from mdr.tools.csv_table import Columns, Units, warn_of_size
 from mdr.tools.fields import facts
+from mdr.tools.warned import warn_outside
 
 DEPTHS = tuple(round(4e-6 * i, 9) for i in range(9))  #: of the example [m]
 FORCES = tuple(round(4 / 3 * 4e6 * 0.05**0.5 * d**1.5, 6) for d in DEPTHS)  #: of a paraboloid [N]
@@ -36,8 +37,9 @@ class FromForce(Indenter):
 
     Depths and forces ascend from d = 0, F = 0. F' must not fall: the contact does not shrink while it is pressed
     deeper. For noisy forces ``smoothing`` is their standard deviation; the shape is then that of the simplest curve of
-    a growing contact that keeps no further from them on average. E_star belongs to the measurement; the shape itself
-    has none.
+    a growing contact that leaves no more of them than such noise, by chi squared: a warning says where it leaves more
+    than 2 standard deviations of chance explain, and beyond 3 there is no shape. E_star belongs to the measurement; the
+    shape itself has none.
 
     With ``tip="any"``, ln F is a quintic spline in ln d, and below the first depth F goes on as a power of d. Powers,
     as of cone, paraboloid and punch, are then exact to rounding, 1e-12. 100 even points of a sphere up to a = R/2 give
@@ -81,6 +83,8 @@ class FromForce(Indenter):
             wrong = f"F must rise more and more steeply, but {why}"
         if wrong:
             raise ValueError(f"{wrong}; {told_smoothing(self, d, F, 'N')}")
+        if self._doubt:
+            warn_outside(self._doubt)
 
     @classmethod
     def read(
@@ -232,6 +236,11 @@ class FromForce(Indenter):
     def _curve(self) -> Near | Through:
         d, F = np.array(self.d[1:]), np.array(self.F[1:])
         return Near(d, F, self.tip, self.smoothing) if self.smoothing else Through(d, F, self.tip)
+
+    @property
+    def _doubt(self) -> str:
+        """What is to be told of what the points leave."""
+        return self._curve.doubt
 
     @cached_property
     def _least_radius(self) -> float:

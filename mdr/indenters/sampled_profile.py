@@ -13,13 +13,14 @@ import numpy as np
 
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.quadrature import in_chunks
-from mdr.indenters.mapping.shape_check import FINE, told_smoothing, why_no_shape, why_not
+from mdr.indenters.mapping.shape_check import FINE, Left, told_smoothing, why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive
 from mdr.tools.csv_header import fault
 from mdr.tools.csv_table import Columns, Reading, Units
 from mdr.tools.fields import facts
+from mdr.tools.warned import warn_outside
 
 MOST_JOINTS = 100  #: pieces of a spline that quadratures heed one by one; what they miss of more is little
 NOISE = "standard deviation of the noise of the data"
@@ -56,7 +57,8 @@ class SampledProfile(Indenter):
     r ascends from 0. Heights count from f at r = 0, wherever the zero of the instrument is. A "round" tip has no
     corner: the spline is even in r, as f ~ r² needs. A "sharp" tip may begin with any slope, like a cone. Where the
     slope jumps, name that r in ``kinks``. For noisy heights ``smoothing`` is their standard deviation: the spline keeps
-    that far from the points on average. Without it the spline follows the noise, until g falls and is refused.
+    that far from the points on average, and a warning says where it has to bend more for this than noise explains.
+    Without it the spline follows the noise, until g falls and is refused.
 
     200 even points of a sphere up to a = R/2 give g and F_N to 1e-11, 50 to 1e-8, 20 to 1e-6. Nothing is known beyond
     r[-1]: a contact that would reach further is refused.
@@ -100,6 +102,8 @@ class SampledProfile(Indenter):
         with in_range(f"a shape of the height {range_of_f:.6g} m and the radius {r[-1]:.6g} m"):
             if why := why_not(self, r, f, "m"):
                 raise ValueError(f"{why}; {self._way_out_of_a_kink()}; {told_smoothing(self, r, f, 'm')}")
+        if self._doubt:
+            warn_outside(self._doubt)
 
     def _why_no_shape(self) -> str:
         """What is wrong with the contact at the ends of all pieces, in their middles and between; empty for a shape."""
@@ -210,16 +214,28 @@ class SampledProfile(Indenter):
         return f"SampledProfile({', '.join(known)})"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_image"}
+        return {name: value for name, value in self.__dict__.items() if name != "_fitted"}
+
+    @property
+    def _image(self) -> SplineImage:
+        return self._fitted[0]
+
+    @property
+    def _doubt(self) -> str:
+        """What is to be told of what the points leave."""
+        return self._fitted[1].doubt(self.smoothing, "m") if self.smoothing else ""
 
     @cached_property
-    def _image(self) -> SplineImage:
+    def _fitted(self) -> tuple[SplineImage, Left]:
+        """The spline with its image, and what it leaves of the points."""
         r, f = np.array(self.r), np.array(self.f)
         cuts = [0, *np.searchsorted(r, self.kinks), r.size - 1]
-        ends, pieces, height = [np.zeros(1)], [], 0.0
+        ends, pieces, lefts, height = [np.zeros(1)], [], [], 0.0
         for first, last in pairwise(cuts):
             even = first == 0 and self.tip == "round"
-            some, c = fit(r[first : last + 1] - (0 if even else r[first]), f[first : last + 1], self.smoothing, even)
+            x, y = r[first : last + 1] - (0 if even else r[first]), f[first : last + 1]
+            some, c, left = fit(x, y, self.smoothing, even)
+            lefts.append(left)
             c[:, 0] += height - c[0, 0]  # begins where the one before ended, at 0 in the first place
             height = float(c[-1].sum())
             ends.append(some[1:] + (0 if even else r[first]))
@@ -227,7 +243,9 @@ class SampledProfile(Indenter):
         radii = np.concatenate(ends)
         radii[-1] = r[-1]
         radii[np.cumsum([0, *map(len, pieces)])] = r[cuts]
-        return SplineImage(radii, np.concatenate(pieces), self.kinks)
+        norms, points, spare = zip(*lefts, strict=True)
+        left = Left(float(np.linalg.norm(norms)), sum(points), sum(spare))
+        return SplineImage(radii, np.concatenate(pieces), self.kinks), left
 
     def _way_out_of_a_kink(self) -> str:
         """What to name, and where, if a change of slope stands out among those at the inner points."""

@@ -159,8 +159,8 @@ class Prony(_WithArms):
         nu : float
             Poisson's ratio [-].
         n_arms : int, optional
-            Relaxation times, spread evenly in log time over the measured range. None: three a decade, but no more than
-            half the data can tell. Those of no use are dropped.
+            Relaxation times, spread evenly in log time over the measured range; those of no use are dropped. None:
+            those that come closest, as many as the data tell.
 
         Returns
         -------
@@ -176,24 +176,25 @@ class Prony(_WithArms):
         -----
         PlausibilityWarning
             Where the body misses the moduli by more than 10 %: noise of a dynamic test is below, several temperatures
-            or a wrong unit are above.
+            or a wrong unit are above. And where `n_arms` arms miss them by more than 1 % on average, and more of them
+            would not.
 
         Notes
         -----
-        Non-negative least squares of the relative deviation (Lawson and Hanson 1974).
+        Non-negative least squares of the relative deviation (Lawson and Hanson 1974), of times that are free: exact
+        moduli of 2 to 200 arms over 3 to 7 decades are met to 1e-3 or better, most to 1e-5.
 
         Examples
         --------
         >>> import mdr
         >>> body = mdr.Prony.fit([1, 10, 100], storage=[1e6, 1.5e6, 2e6], loss=[2e5, 3e5, 2e5], nu=0.5)
-        >>> body.arms[0][1]
-        0.1
+        >>> [round(tau_j, 2) for _, tau_j in body.arms]
+        [0.37, 0.03]
         """
         data = prony_fit.data_of(omega, storage, loss)
-        E_inf, arms, _ = prony_fit.to_data(*data, n_arms)
-        body = cls(E_inf, arms, nu)
-        prony_fit.warn_of_misfit(body, *data, n_arms)
-        return body
+        found = prony_fit.to_data(*data, n_arms)
+        prony_fit.warn_of_misfit(found, *data, n_arms)
+        return cls(found.constant, found.arms, nu)
 
     @classmethod
     def fit_relaxation(cls, t: ArrayLike, modulus: ArrayLike, *, nu: float, n_arms: int | None = None) -> Prony:
@@ -213,7 +214,8 @@ class Prony(_WithArms):
         Returns
         -------
         Prony
-            The body. It says nothing about times outside the measured range.
+            The body. It says nothing about times outside the measured range t_1 to t_n, and about frequencies outside
+            10/t_n to 0.1/t_1, in rad/s. Between, E(omega) is known to three times the noise and 1 %.
 
         Raises
         ------
@@ -223,7 +225,8 @@ class Prony(_WithArms):
         Warns
         -----
         PlausibilityWarning
-            Where the body misses the modulus by more than 10 %.
+            Where the body misses the modulus by more than 10 %, where `n_arms` arms do by more than 1 % on average and
+            more of them would not, and where E(omega) lacks more than 1 % by what happened before the first time.
 
         Examples
         --------
@@ -233,9 +236,7 @@ class Prony(_WithArms):
         >>> print(f"{body.E_inf:.3g} Pa")
         1e+06 Pa
         """
-        body = cls(*step_fit.to_relaxation(t, modulus, n_arms), nu=nu)
-        step_fit.warn_of_misfit(body, t, modulus, is_creep=False)
-        return body
+        return cls(*step_fit.to_relaxation(t, modulus, n_arms), nu=nu)
 
     @classmethod
     def fit_creep(cls, t: ArrayLike, compliance: ArrayLike, *, nu: float, n_arms: int | None = None) -> Prony:
@@ -255,7 +256,8 @@ class Prony(_WithArms):
         Returns
         -------
         Prony
-            The body. It says nothing about times outside the measured range.
+            The body. It says nothing about times outside the measured range t_1 to t_n, and about frequencies outside
+            10/t_n to 0.1/t_1, in rad/s. Between, E(omega) is known to three times the noise and 1 %.
 
         Raises
         ------
@@ -265,7 +267,8 @@ class Prony(_WithArms):
         Warns
         -----
         PlausibilityWarning
-            Where the body misses the compliance by more than 10 %.
+            Where the body misses the compliance by more than 10 %, and where `n_arms` arms do by more than 1 % on
+            average and more of them would not.
 
         Examples
         --------
@@ -276,9 +279,7 @@ class Prony(_WithArms):
         1e+06 Pa
         """
         E_inf, arms, tau = step_fit.to_creep(t, compliance, n_arms)
-        body = cls(E_inf, arms, nu, tau)
-        step_fit.warn_of_misfit(body, t, compliance, is_creep=True)
-        return body
+        return cls(E_inf, arms, nu, tau)
 
     @classmethod
     def power_law(

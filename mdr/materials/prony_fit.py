@@ -1,8 +1,4 @@
-"""Maxwell arms from measured dynamic moduli, or from a power law.
-
-Relaxation times are spread evenly in log time. The moduli follow by non-negative least squares of the relative
-deviation of E(omega) (Lawson and Hanson 1974, `scipy.optimize.nnls`), so that every arm is passive.
-"""
+"""Maxwell arms from measured dynamic moduli, or from a power law, so that every arm is passive (`spectrum`)."""
 
 from itertools import product
 from typing import Any
@@ -10,20 +6,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mdr.materials import spectrum
 from mdr.materials.base import Arms, OneBody, arm
-from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import between, count, finite_array, positive, positive_array
+from mdr.tools.arrays import Array
+from mdr.tools.checks import between, finite_array, positive, positive_array
 from mdr.tools.warned import warn_outside
 
 TOLD = 0.1  #: misfit that is told: dynamic tests are good to some 5 %, and one of ten points to twice that
 ONE = 0.01  #: relative difference of frequencies that are one: no passive modulus rises faster than its frequency
 MOST_ARMS = 60  #: of a power law, as many as are tried before it is refused
+BEYOND = (2.0, 3.0, 5.0, 10.0)  #: wider ranges of times: an arm ten times slower than 1/omega has a tenth of it as loss
 
 
-def to_data(omega: Array, modulus: Any, n_arms: int | None) -> tuple[float, Arms, float]:
-    """E_inf [Pa] and arms closest to measured moduli, and the greatest relative deviation that they leave."""
-    n_arms = number_of_arms(omega, omega.size, n_arms)
-    return _closest(omega, modulus, 1 / spread(omega.min(), omega.max(), n_arms))
+def to_data(omega: Array, modulus: Any, n_arms: int | None) -> spectrum.Sum:
+    """The long-time modulus E_inf [Pa], and the arms, closest to measured moduli."""
+    ends = float(1 / omega.max()), float(1 / omega.min())
+    return spectrum.nearest(_over(omega, modulus), ends, BEYOND, n_arms)
+
+
+def _over(omega: Array, modulus: Any) -> spectrum.Data:
+    """Moduli over frequency, which arms are to come close to."""
+    return spectrum.Data(lambda times: arm(np.outer(omega, times)), modulus, np.ones(omega.size))
 
 
 def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], error: float) -> tuple[float, Arms]:
@@ -38,21 +41,17 @@ def to_power_law(modulus: float, exponent: float, omega: tuple[float, float], er
     # arms reach beyond the range by a margin, for the rest of a power law
     for n_arms, margin in product(range(2, MOST_ARMS + 1), (3.0, 10.0, 100.0, 1000.0)):
         times = np.geomspace(1 / (margin * high), min(margin, 10) / low, n_arms)
-        E_inf, arms, missed = _closest(dense, wanted, times)
-        if E_inf == 0:
+        found = spectrum.of_times(_over(dense, wanted), times)
+        if found.constant == 0:
             continue  # flows in the end
+        missed = float(found.missed.max())
         least = min(least, missed)
         if missed <= error:
-            return E_inf, arms
+            return found.constant, found.arms
     raise ValueError(
         f"error = {error:g} of the power law is not reached by {MOST_ARMS} arms, only {least:.2g}: "
         "raise error or narrow the range omega"
     )
-
-
-def arms_of(moduli: Array, times: Array) -> Arms:
-    """The arms that have a modulus."""
-    return tuple((E, time) for E, time in zip(moduli.tolist(), times.tolist(), strict=True) if E > 0)
 
 
 def misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
@@ -61,21 +60,18 @@ def misfits(material: OneBody, omega: Array, modulus: Any) -> Array:
     return np.asarray(np.abs(own - modulus) / np.abs(modulus))
 
 
-def warn_of_misfit(material: OneBody, omega: Array, modulus: Any, n_arms: int | None) -> None:
-    """Warn where a fitted body misses the data by more than they are good for, with what may help."""
-    missed = misfits(material, omega, modulus)
-    k, usual = int(np.argmax(missed)), usual_arms(omega)
-    if missed[k] <= TOLD:
-        return
+def warn_of_misfit(found: spectrum.Sum, omega: Array, modulus: Any, n_arms: int | None) -> None:
+    """Warn where arms miss the data by more than they are good for, with what may help."""
+    free = found if n_arms is None else to_data(omega, modulus, None)
+    if free.missed.max() <= TOLD:
+        return spectrum.warn_of_few(found, free)
+    k = int(np.argmax(found.missed))
+    way_out = "no arms have such moduli at one temperature: is a unit wrong, or a column another quantity?"
     if twice(omega, modulus).size:
         way_out = "frequencies repeat with other moduli: give one temperature, mdr.read_moduli(path, temperature=20)"
-    elif (n_arms or omega.size // 2) < usual and to_data(omega, modulus, usual)[2] < missed[k] / 2:
-        way_out = f"n_arms={usual} may come nearer"
-    else:
-        way_out = "no arms have such moduli at one temperature: is a unit wrong, or a column another quantity?"
     warn_outside(
-        f"the body misses the moduli by {missed[k]:.0%} at {omega[k]:.4g} rad/s ({omega[k] / (2 * np.pi):.4g} Hz); "
-        f"noise alone is hardly more than {TOLD:.0%}: {way_out}"
+        f"the body misses the moduli by {found.missed[k]:.0%} at {omega[k]:.4g} rad/s "
+        f"({omega[k] / (2 * np.pi):.4g} Hz); noise alone is hardly more than {TOLD:.0%}: {way_out}"
     )
 
 
@@ -85,44 +81,6 @@ def twice(omega: Array, modulus: Any) -> Array:
     omega, modulus = omega[order], np.asarray(modulus)[order]
     differ = np.abs(np.diff(modulus)) > TOLD * np.minimum(np.abs(modulus[1:]), np.abs(modulus[:-1]))
     return np.asarray(order[:-1][(np.diff(omega) <= ONE * omega[:-1]) & differ])
-
-
-def usual_arms(places: Array) -> int:
-    """Three a decade, of times or frequencies."""
-    return round(3.0 * float(np.log10(places.max() / places.min()))) + 1
-
-
-def number_of_arms(places: Array, n_data: int, n_arms: int | None) -> int:
-    """As many as are asked for; None: the usual number, but no more than half the data can tell."""
-    if n_arms is None:
-        n_arms = max(1, min(usual_arms(places), n_data // 2))
-    return count("n_arms", n_arms, 1)
-
-
-def spread(first: float, last: float, n: int) -> Array:
-    """So many times or frequencies, even in log time; a single one is in the middle."""
-    return np.geomspace(first, last, n) if n > 1 else np.array([np.sqrt(first * last)])
-
-
-def _closest(omega: Array, modulus: Any, times: Array) -> tuple[float, Arms, float]:
-    """E_inf and arms of these times, non-negative, of least relative deviation, and the greatest that is left."""
-    weight, of_arms = 1 / np.abs(modulus), arm(np.outer(omega, times))
-    columns = np.column_stack([np.ones(omega.size), of_arms]) * weight[:, None]
-    target = modulus * weight
-    rows, wanted = (np.concatenate([one.real, one.imag]) for one in (columns, target))
-    found = least_squares(rows, wanted)
-    E_inf, moduli = float(found[0]), found[1:]
-    missed = np.max(np.abs(of_arms @ moduli + E_inf - modulus) / np.abs(modulus))
-    return E_inf, arms_of(moduli, times), float(missed)
-
-
-def least_squares(rows: Array, wanted: Array) -> Array:
-    """The non-negative numbers, (n,), of which `rows`, (m, n), come closest to what is wanted; 0 for the tiny."""
-    from scipy.optimize import nnls
-
-    found, _ = nnls(rows, wanted, maxiter=100 * rows.shape[1])
-    found[found < SAME * found.max()] = 0.0
-    return np.asarray(found)
 
 
 def data_of(omega: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> tuple[Array, Any]:

@@ -1,6 +1,7 @@
 """Shapes from measured points: as good as their splines say, or refused with the reason."""
 
 import contextlib
+import warnings
 
 import numpy as np
 import pytest
@@ -60,6 +61,24 @@ def test_noise_is_smoothed():
     residual = shape.profile_3d(GRID) - (f - f[0])
     assert np.std(residual) == pytest.approx(noise, rel=0.3)
     assert_allclose(shape.force([1e-5, 1e-4], 1), mdr.Sphere(R).force([1e-5, 1e-4], 1), rtol=1e-3)
+
+
+@pytest.mark.parametrize("n", [20, 40, 76])
+def test_a_spline_that_follows_half_of_the_noise_says_so(n):
+    """It keeps from the points as it is told to, by more numbers than noise takes: told, or no shape, in 16 of 20."""
+    r = np.linspace(0, 3e-4, n)
+    said = {0.5: 0, 1.0: 0}
+    for seed in range(20):
+        f = r**2 / (2 * R) + np.random.default_rng(seed).normal(0, 1e-8, n)
+        for share in said:
+            with warnings.catch_warnings(record=True) as told, contextlib.suppress(ValueError):
+                warnings.simplefilter("always")
+                told.append(None)  # of a refusal
+                mdr.SampledProfile(r, f, smoothing=share * 1e-8)
+                told.remove(None)
+            said[share] += bool(told)
+    assert said[0.5] >= 16
+    assert said[1.0] <= 4
 
 
 def test_no_spline_follows_the_noise_of_many_points(monkeypatch):

@@ -24,13 +24,39 @@ def creep(t):
 @pytest.mark.parametrize(("fit", "measured"), [(mdr.Prony.fit_relaxation, relaxation), (mdr.Prony.fit_creep, creep)])
 @pytest.mark.parametrize("noise", [0.0, 0.01, 0.03])
 def test_a_known_body_comes_back_from_a_step(fit, measured, noise):
-    """To the noise, and 1.2 % by which three times a decade miss one that is between them; in any order."""
+    """To twice the noise; exact ones to what is left of a search for times; in any order."""
     rng = np.random.default_rng(1)
     order = rng.permutation(T.size)
     data = (measured(T) * (1 + noise * rng.normal(size=T.size)))[order]
     found = fit(T[order], data, nu=0.4)
-    assert_allclose(found.dynamic_modulus(OMEGA), BODY.dynamic_modulus(OMEGA), rtol=0.012 + noise)
+    assert_allclose(found.dynamic_modulus(OMEGA), BODY.dynamic_modulus(OMEGA), rtol=1e-6 + 2 * noise)
     assert found.nu == 0.4
+
+
+@pytest.mark.parametrize(("fit", "measured"), [(mdr.Prony.fit_relaxation, relaxation), (mdr.Prony.fit_creep, creep)])
+def test_many_readings_are_as_good_as_few(fit, measured):
+    """Means over half a per cent of time, whose square over 24 they miss at most."""
+    t = np.linspace(0, 100, 30_001)[1:]
+    found = fit(t, measured(t), nu=0.4)
+    omega = np.geomspace(0.1, 30, 20)
+    assert_allclose(found.dynamic_modulus(omega), BODY.dynamic_modulus(omega), rtol=1e-4)
+
+
+@pytest.mark.parametrize("exponent", [0.15, 0.3, 0.45])
+def test_a_relaxation_that_is_steep_at_first_says_what_it_lacks(exponent):
+    """E(t) = t^-p: E(omega) at a decade below the first time inverted is off by no more than is said, and 1 %."""
+    body = mdr.Prony.power_law(modulus=1e6, exponent=exponent, omega=(1e-4, 1e5), nu=0.4)
+    with pytest.warns(mdr.PlausibilityWarning, match="the modulus still falls like") as told:
+        found = mdr.Prony.fit_relaxation(T, YOUNG * body.relaxation_modulus(T), nu=0.4)
+    (said,) = (float(str(one.message).partition("off by ")[2].partition("%")[0]) / 100 for one in told)
+    off = abs(found.dynamic_modulus(OMEGA) / body.dynamic_modulus(OMEGA) - 1)
+    assert 0.3 * said < np.max(off) < said + 0.01
+
+
+def test_few_arms_that_miss_are_told():
+    for fit, data in ((mdr.Prony.fit_relaxation, relaxation(T)), (mdr.Prony.fit_creep, creep(T))):
+        with pytest.warns(mdr.PlausibilityWarning, match="so many arms miss the data by .* leave n_arms out"):
+            fit(T, data, nu=0.4, n_arms=2)
 
 
 def test_arms_of_a_creep_are_exact():

@@ -11,7 +11,8 @@ Both kinds of curve know
     power       of d, as which F begins at d -> 0,
     power_to    depth [m] up to which F is that power,
     places      depths [m], close enough to see where F' falls,
-    why         why it is no curve of a shape; empty where it is one.
+    why         why it is no curve of a shape; empty where it is one,
+    doubt       of what the points leave, what is to be told; empty where chance explains it.
 """
 
 from itertools import product
@@ -19,13 +20,13 @@ from typing import Any
 
 import numpy as np
 
+from mdr.indenters.mapping.shape_check import REFUSED, TOLD, Left
 from mdr.indenters.mapping.splines import spline
 from mdr.tools.arrays import SAME, Array
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 #: how many of the first coefficients of F' a tip makes zero; what is tried one after the other
 ZEROS = {"any": (1, 0), "round": (1,), "sharp": (2,), "flat": (0,)}
-SIGMAS = 3.0  #: by which the root mean square of noise may be more than it is on average
 PIECES, DEGREE = 40, 3  #: of F', pieces at most
 
 
@@ -38,6 +39,8 @@ def tip_of(name: str, value: Any, note: str = "") -> str:
 
 class Through:
     """The curve that meets each point (d, F) behind the touch."""
+
+    doubt = ""
 
     def __init__(self, d: Array, F: Array, tip: str) -> None:
         self.is_any, self.d_1, self.F_1, self.known = tip == "any", float(d[0]), float(F[0]), TIPS[tip]
@@ -81,24 +84,25 @@ class Near:
 
         self.d_n, self.F_n, self.power_to = float(d[-1]), float(np.abs(F).max()) or 1.0, 0.0
         self.places = self.d_n * np.concatenate([np.geomspace(1e-9, 1e-3, 32), np.linspace(1e-3, 1, 8 * PIECES)])
-        s, best = np.sqrt(d / self.d_n), np.inf
-        enough = noise / self.F_n * (1 + SIGMAS / np.sqrt(2 * d.size))
+        s, chance = np.sqrt(d / self.d_n), -1.0
         for pieces, zeros in product(range(1, max(1, min(PIECES, d.size // 4)) + 1), ZEROS[tip]):
             found = _fitted(s, F / self.F_n, pieces, zeros)
-            if found[0] < best:
-                best, share, rises, areas = found
+            left = Left(float(found[0]) * self.F_n, d.size, d.size - int(np.count_nonzero(found[1])))
+            if left.chance(noise) > chance:
+                chance, best = left.chance(noise), left
+                _, share, rises, areas = found
                 first = zeros + int(np.argmax(share > 0))
-            if best <= enough:
+            if chance >= TOLD:
                 break
         self.over_s, self.area = (
             PPoly(sum(c * one.c for c, one in zip(share, parts, strict=True)), parts[0].x) for parts in (rises, areas)
         )
         self.power = 1 + first / 2
-        miss, begins = best * self.F_n, max(first - DEGREE, 0) / (self.over_s.x.size - 1)
+        begins, self.doubt = max(first - DEGREE, 0) / (self.over_s.x.size - 1), best.doubt(noise, "N")
         if not share.any():
             self.why = "no force is above zero"
-        elif best > enough:
-            self.why = f"a growing contact of {PIECES} pieces or less misses the forces by {miss:.3g} N on average"
+        elif chance < REFUSED:
+            self.why = f"a growing contact of {PIECES} pieces or less misses the forces by {best.rms:.3g} N on average"
         elif begins:
             self.why = f"there is no force up to d = {self.d_n * begins**2:.3g} m: give depths less that of the touch"
         else:
@@ -114,13 +118,13 @@ class Near:
 
 
 def _fitted(s: Array, F: Array, pieces: int, zeros: int) -> tuple[float, Array, list[Any], list[Any]]:
-    """How far a curve of so many pieces misses F (root mean square), shares of its parts, and these as F' and F."""
+    """Root of the sum of squares that a curve of so many pieces misses F by, shares of its parts, these as F' and F."""
     from scipy.optimize import nnls
 
     rises = [_step(pieces, k) for k in range(zeros, pieces + DEGREE)]
     areas = [_area(one) for one in rises]
     share, norm = nnls(np.column_stack([area(s) for area in areas]), F)
-    return float(norm) / np.sqrt(s.size), share, rises, areas
+    return float(norm), share, rises, areas
 
 
 def _step(pieces: int, k: int) -> Any:

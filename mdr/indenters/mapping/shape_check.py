@@ -10,7 +10,7 @@ as dF_N/dd = 2E*a. What is made of data, of a function or by a class of a user i
 from collections.abc import Callable
 from copy import copy
 from functools import wraps
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,8 @@ FALLS = (
     "inside it; the method needs a full disc: choose a shape whose g(x) rises"
 )
 MANY = 300  #: points; through fewer a spline that follows the noise is found at once; its time goes as their square
+#: chances of what points leave, of two and three standard deviations: it is told, or the curve is none
+TOLD, REFUSED = 0.0455, 0.0027
 AGREE = 1e-6  #: of the greatest: by which two ways to one quantity may differ in a user's class
 
 
@@ -142,6 +144,39 @@ def noise_of(x: Array, y: Array) -> float:
     return float(np.median(np.abs(off) / np.sqrt(sum(share**2 for share in shares))) / 0.6745)
 
 
+class Left(NamedTuple):
+    """What points leave of a curve that passes by them."""
+
+    norm: float  #: root of the sum of squares, in the unit of the points
+    n: int  #: points
+    spare: float  #: points less the free numbers of the curve
+
+    @property
+    def rms(self) -> float:
+        """Root mean square distance of the points."""
+        return float(self.norm / np.sqrt(self.n))
+
+    def chance(self, noise: float) -> float:
+        """That noise of this standard deviation leaves as much or more: chi squared."""
+        from scipy.stats import chi2
+
+        return float(chi2.sf((self.norm / noise) ** 2, self.spare)) if self.spare > 0 else 0.0
+
+    def doubt(self, noise: float, unit: str) -> str:
+        """What to say where it is more than noise explains; empty where it is not."""
+        if self.chance(noise) >= TOLD:
+            return ""
+        of_size = f"a curve of {self.n - self.spare:.0f} free numbers"
+        free = f"{of_size} passes {self.n} points by {self.rms:.2g} {unit} on average"
+        if self.spare <= 0:
+            return f"smoothing = {noise:.6g} {unit} smooths nothing: {free}; measure more points"
+        likely = self.norm / np.sqrt(self.spare)
+        return (
+            f"smoothing = {noise:.6g} {unit} is less than the noise of the points, about {likely:.2g} {unit}: {free}, "
+            f"{likely / noise:.2g} times as much as such noise leaves it; give smoothing={likely:.2g} {unit}"
+        )
+
+
 def why_not(shape: Any, x: Array, y: Array, unit: str) -> str:
     """What is wrong with the shape of measured points (x, y); empty for a shape.
 
@@ -162,7 +197,7 @@ def told_smoothing(shape: Any, x: Array, y: Array, unit: str) -> str:
             break
         last = float(f"{smoothing:.2g}")
         object.__setattr__(other := copy(shape), "smoothing", last)
-        if not other._why_no_shape():
+        if not other._why_no_shape() and not other._doubt:
             return (
                 f"if it is noise, give its standard deviation as smoothing=: {last!r} {unit} is enough for a shape, "
                 f"the points look like noise of {noise:.2g} {unit}"

@@ -19,6 +19,7 @@ from numpy.polynomial.polynomial import polyval
 
 from mdr.indenters.mapping.arc_sums import ArcSums, Numbers
 from mdr.indenters.mapping.quadrature import N_FIT, chebyshev_fit
+from mdr.indenters.mapping.shape_check import Left
 from mdr.indenters.mapping.stable_functions import GAUSS, leg
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import progress
@@ -44,8 +45,8 @@ def spline(x: Array, y: Array, noise: float) -> Any:
     return BSpline(t, c * noise, k)
 
 
-def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array]:
-    """Ends (n + 1,) of the pieces of a spline through the points, and their polynomials (n, degree + 1).
+def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array, Left]:
+    """Ends (n + 1,) of the pieces of a spline through the points, their polynomials (n, degree + 1), and what is left.
 
     Piece i is Σ_j c_ij u^j with u = (x − x_i)/(x_i+1 − x_i); ``even`` fits the points with their mirror images at −x.
     """
@@ -54,12 +55,15 @@ def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array]:
     if even:
         x, y = np.concatenate([-x[:0:-1], x]), np.concatenate([y[:0:-1], y])
     unit = max(abs(x[0]), abs(x[-1]))
-    whole = PPoly.from_spline(spline(x / unit, y, noise))
+    curve = spline(x / unit, y, noise)
+    norm, spare = float(np.linalg.norm(curve(x / unit) - y)), x.size - (curve.t.size - curve.k - 1)
+    missed = Left(norm / np.sqrt(2), (x.size + 1) // 2, spare / 2) if even else Left(norm, x.size, spare)
+    whole = PPoly.from_spline(curve)
     keep = np.flatnonzero(np.diff(whole.x) > 0)
     ends = np.append(whole.x[keep], whole.x[keep[-1] + 1])
     pieces = whole.c[::-1, keep].T
     if not even:
-        return unit * ends, _moved(pieces, np.zeros(keep.size), np.diff(ends))
+        return unit * ends, _moved(pieces, np.zeros(keep.size), np.diff(ends)), missed
     both = np.unique(np.append(0, np.abs(ends)))
     both = np.append(both[:-1][np.diff(both) > EXACT], 1.0)  # a mirror image may be a rounding away
     middle, width = (both[1:] + both[:-1]) / 2, np.diff(both)
@@ -67,7 +71,7 @@ def fit(x: Array, y: Array, noise: float, even: bool) -> tuple[Array, Array]:
     left = np.searchsorted(ends, -middle) - 1
     half = _moved(pieces[right], both[:-1] - ends[right], width) + _moved(pieces[left], -both[:-1] - ends[left], -width)
     half[0, 1 : pieces.shape[1] - 1 : 2] = 0  # even to the last digit
-    return unit * both, half / 2
+    return unit * both, half / 2, missed
 
 
 def _moved(c: Array, start: Array, width: Array) -> Array:
