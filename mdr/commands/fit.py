@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 from typing import Any
 
 import mdr
@@ -28,6 +29,9 @@ def add_options_of_fit(command: argparse.ArgumentParser) -> None:
     share = plain_number("-", "a share, such as 95% or 0.95")
     level = "level of the intervals (default: 0.95)"
     command.add_argument("--confidence", metavar="share", type=share, default=0.95, help=level)
+    seconds = plain_number("s", "a time such as 60s or 5min")
+    limit = "computing time after which the best values so far are printed (status 1), as at Ctrl-C or SIGTERM (130)"
+    command.add_argument("--limit", metavar="60s", type=seconds, help=limit)
     add_reading(command)
     add_output(command, "fitted.toml", "fit.png", "fit.svg")
 
@@ -38,9 +42,15 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     data = read_file(mdr.read_friction_data, args.data, args)
     with refusals():
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
-        found = mdr.fit(asked.case, data, args.free, **knobs)
+        before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # of `timeout`: as Ctrl-C
+        try:
+            found = mdr.fit(asked.case, data, args.free, limit_s=args.limit, **knobs)
+        finally:
+            signal.signal(signal.SIGTERM, before)
     answer(args, _told(found), str(found), found.case)
     write_found(args, found.plot, mdr.write_case(found.case), str(found))
+    if found.stopped:
+        return Exit.FAILED if "limit" in found.stopped else Exit.INTERRUPTED
     return Exit.DONE
 
 
@@ -51,7 +61,10 @@ def _told(found: Fit) -> dict[str, Any]:
         known = name not in found.undetermined
         ends = {"low": found.low[name] if known else None, "high": found.high[name] if known else None}
         parameters[name] = {"value": value, **ends, "unit": found.units[name] or "-", "determined": known}
-    values = {"parameters": parameters, **picked(found, "confidence", "rms", "correlation", "warnings")}
+    values = {
+        "parameters": parameters,
+        **picked(found, "confidence", "rms", "correlation", "warnings", "cof_error", "stopped"),
+    }
     return {**values, **picked(found.data, "v_0", "cof"), "residuals": found.residuals}
 
 

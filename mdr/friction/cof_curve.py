@@ -34,7 +34,7 @@ from mdr.tools.checks import count, row
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.messages import MOST_TOLD
-from mdr.tools.progress import progress
+from mdr.tools.progress import Ended, progress, time_is_over
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
 
@@ -413,11 +413,19 @@ def _runs(
 
 
 def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, steps_per_period: int) -> Array:
-    """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form."""
+    """Friction (n_v,) [-] without a bound on its error: one run for each velocity, or the closed form.
+
+    Raises Ended where the time limit is over between two runs.
+    """
     resolution = Resolution(n_springs, steps_per_period, "full_slip", lump=True, bounded=False)
 
     def quick(one: SlidingContact, v_0: Array) -> Columns:
-        cof = full_cof(one) * np.array([end.cof for end in runs(one, v_0.tolist(), resolution)])
+        found = []
+        for end in runs(one, v_0.tolist(), resolution):
+            found.append(full_cof(one) * end.cof)
+            if time_is_over():
+                raise Ended
+        cof = np.array(found)
         return Columns.exact(cof, 0 * cof, 0 * cof)
 
     case = resolved(case)

@@ -12,11 +12,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from mdr.case.contact import OF_FACE, SlidingContact, as_given
+from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
@@ -26,13 +27,15 @@ from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.keywords import offering
 from mdr.tools.messages import short
-from mdr.tools.progress import Ticker
+from mdr.tools.progress import Ended, Ticker, time_is_over, time_limit
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+WORTH = 0.1  #: of the error of a measurement, which runs are to keep to
+LEAST = 16  #: springs, or steps of a period, of a run that is worth anything
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
 
@@ -52,6 +55,8 @@ class Fit(Printed, ArrayRecord):
     rms: float  #: root mean square of the deviations, in units of the errors given, else of the COF
     units: dict[str, str]  #: of the values, "" for pure numbers
     warnings: tuple[str, ...]  #: what the data do not tell
+    cof_error: float  #: about the greatest error of the runs that were fitted [-]; 0 in closed form
+    stopped: str = ""  #: what ended the search before the best fit was found: values are the best so far
 
     @property
     def curve(self) -> CofCurve:
@@ -84,6 +89,7 @@ class Fit(Printed, ArrayRecord):
         scale = "in units of the errors" if self.data.error is not None else "of the COF"
         told = [f"correlations: {', '.join(pairs)}"] if pairs else []
         told += [f"residuals: {self.rms:.3g} root mean square, {scale}"]
+        told += [f"runs: COF to about {self.cof_error:.1g}"] if self.cof_error else []
         rows = [f"{name:<16} {self._row(name)}" for name in names]
         return "\n".join([f"{self.confidence:.0%} intervals:", *rows, *told, *self.warnings])
 
@@ -103,6 +109,7 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     confidence: float = 0.95,
     held: Mapping[str, Any] | None = None,
+    limit_s: float | None = None,
 ) -> Fit:
     """Parameters of a contact, in SI, from measured friction, by least squares, with confidence intervals.
 
@@ -124,6 +131,9 @@ def fit(
         "load" [N], "frequency" [Hz] or "tan_delta" [-], which hold as parameters vary, unless a parameter sets the
         same: a load by another depth for every shape and material. Beside a load "hold" says what stays: "depth", at
         which it rests, or "load", its mean. `mdr fit` holds what the case file gives.
+    limit_s : float, optional
+        Computing time [s] after which the search ends, looked at between runs. An interrupt (Ctrl-C) ends it too. The
+        best values so far are answered, and `stopped` says why. None: until the best fit is found.
 
     Returns
     -------
@@ -143,6 +153,11 @@ def fit(
     bounds that reach zero, is searched for on a linear scale, and so is mindlin_ratio. The search finds the best fit
     nearest to where it begins: begin elsewhere where there may be several.
 
+    Runs are as accurate as the data are worth: of so many springs and steps that at the best fit twice as many change
+    the COF by less than a tenth of its error, or of the scatter about the curve, at each point; never more than the
+    numbers with which `cof_curve` begins. The search ends where chi squared changes by less than 1e-5 of it, parameters
+    by some hundredths of their standard deviation.
+
     Examples
     --------
     >>> import mdr
@@ -154,8 +169,6 @@ def fit(
     >>> print(f"{found.values['mu_0']:.2f}")
     0.40
     """
-    from scipy.optimize import least_squares
-
     case = as_given(case)
     at_rest(case)  # warns of what is unlikely
     if not isinstance(data, FrictionData):
@@ -167,13 +180,22 @@ def fit(
     if len(free) >= data.v_0.size:
         raise ValueError(f"{len(free)} parameters need more than {data.v_0.size} measurements")
     model = _Model(case, data, free, still_held(held or {}, [one.path for one in free]))
-    low, high = np.transpose([one.ends for one in free])
-    first = np.array([one.first for one in free])
-    found = least_squares(model.left, first, model.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-10)
+    stopped = ""
+    with time_limit(limit_s):
+        try:
+            model.search()
+        except Ended:
+            stopped = f"the limit of {limit_s:g} s"
+        except KeyboardInterrupt:
+            stopped = "an interrupt"
+            if model.best is None:
+                raise
+    if model.best is None:
+        raise ValueError(f"limit_s = {limit_s:g} s is over before the first curve is done; raise it")
     size = float(np.linalg.norm(data.cof / model.error))
-    idle = np.linalg.norm(found.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
-    x = np.where(idle, [one.coordinate(one.start) for one in free], found.x)
-    fitted = _with_intervals(model, x, found.jac, found.fun, confidence)
+    idle = np.linalg.norm(model.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
+    x = np.where(idle & (not stopped), [one.coordinate(one.start) for one in free], model.best.x)
+    fitted = _with_intervals(model, x, model.jac, model.best.left, confidence, stopped)
     warn_of_load({**model.held, **model.values(x)}, fitted.case, "at the best fit ")
     return fitted
 
@@ -217,18 +239,55 @@ def _refuse_wrong_signs(case: SlidingContact, data: FrictionData) -> None:
         )
 
 
+class _Best(NamedTuple):
+    """The closest curve so far."""
+
+    x: Array  #: coordinates (k,)
+    left: Array  #: fitted less measured, over the errors (n,)
+    size: tuple[int, int]  #: springs and steps of its runs
+
+
 class _Model:
-    """What is left of the data at coordinates x (k,) of the parameters, and its derivatives."""
+    """What is left of the data at coordinates x (k,) of the parameters, its derivatives, and the best so far."""
 
     def __init__(
         self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...], held: Mapping[str, Any]
     ) -> None:
         self.case, self.data, self.free, self.held = case, data, free, held
         self.error = 1.0 if data.error is None else data.error
-        first = resolved(case)
-        self.size = default_springs(first), default_steps(first)  # the same of all, or curves would jump
+        self.best: _Best | None = None
+        self.jac = np.zeros((data.v_0.size, len(free)))  #: (n, k), the last that was made
+        self.cof_error, self.size = 0.0, (0, 0)
         self._ticker = Ticker("fit", parts="curves")
-        self._at = lru_cache(maxsize=2)(self._deviations)
+
+    def search(self) -> None:
+        """The best fit, by runs as coarse as the data allow."""
+        from scipy.optimize import least_squares
+
+        low, high = np.transpose([one.ends for one in self.free])
+        x = np.array([one.first for one in self.free])
+        first = resolved(self.case)
+        most = default_springs(first), default_steps(first)
+        shares = (1,) if has_closed_form(first) else (4, 2, 1)
+        sizes = list(dict.fromkeys((max(most[0] // k, LEAST), max(most[1] // k, LEAST)) for k in shares))
+        for size, finer in zip(sizes, [*sizes[1:], None], strict=True):
+            self.size, self._at = size, lru_cache(maxsize=2)(self._deviations)  # the same of all, or curves would jump
+            try:
+                found = least_squares(self.left, x, self.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-5)
+            except ValueError:
+                if finer is None:
+                    raise
+                continue  # a brief contact that so few steps do not see
+            x = found.x
+            if finer is None:
+                return
+            off = np.abs(self._cof(x, finer) - self._cof(x, size))
+            self.cof_error = float(off.max())
+            spare = found.fun.size - x.size
+            scatter = np.sqrt(found.fun @ found.fun / spare) if self.data.error is None else self.error
+            if np.all(off <= WORTH * scatter):
+                return
+            self.cof_error /= 3  # of the finer runs, at second order
 
     def values(self, x: Array) -> dict[str, float]:
         """{path: value}."""
@@ -250,19 +309,30 @@ class _Model:
             step = min(most, (high - low) / 4) * (1 if x[i] + most < high else -1)
             moved = x + step * (np.arange(x.size) == i)
             columns.append((self._deviations(tuple(moved.tolist())) - self.left(x)) / step)
-        return np.transpose(columns)
+        self.jac = np.transpose(columns)
+        return self.jac
 
     def _deviations(self, x: tuple[float, ...]) -> Array:
+        left = np.asarray((self._cof(np.array(x), self.size) - self.data.cof) / self.error)
+        best = self.best
+        if best is None or best.size != self.size or left @ left < best.left @ best.left:
+            self.best = _Best(np.array(x), left, self.size)
+            values = ", ".join(f"{one.name} = {one.told(at)}" for one, at in zip(self.free, x, strict=True))
+            self._ticker.what = f"fit, {values} so far, {float(np.sqrt(np.mean(left**2))):.3g} left on average"
+        return left
+
+    def _cof(self, x: Array, size: tuple[int, int]) -> Array:
+        if time_is_over():
+            raise Ended
         self._ticker.tick()
         try:
-            cof = friction_without_bound(self.case_at(np.array(x)), self.data.v_0, *self.size)
+            return friction_without_bound(self.case_at(x), self.data.v_0, *size)
         except ValueError as refusal:
-            where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(np.array(x)).items())
+            where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(x).items())
             raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None
-        return np.asarray((cof - self.data.cof) / self.error)
 
 
-def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float) -> Fit:
+def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float, stopped: str) -> Fit:
     """The fit with intervals and warnings, from the Jacobian (n, k) and the residuals (n,) at the best values."""
     from scipy.stats import t
 
@@ -289,7 +359,24 @@ def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence
         correlation=correlation,
         rms=float(np.sqrt(np.mean(left**2))),
         units={one.name: one.symbol for one in free},
-        warnings=(*_vague(free, x, half), *_alike(names, correlation), *_beyond(case, model), *_missed(left, model)),
+        warnings=(
+            *_ended(stopped),
+            *_vague(free, x, half),
+            *_alike(names, correlation),
+            *_beyond(case, model),
+            *_missed(left, model),
+        ),
+        cof_error=model.cof_error,
+        stopped=stopped,
+    )
+
+
+def _ended(stopped: str) -> list[str]:
+    """That the search was stopped."""
+    return (
+        [f"stopped by {stopped}: the best values so far, not those of the best fit, and rough intervals"]
+        if stopped
+        else []
     )
 
 

@@ -66,6 +66,10 @@ class Parameter:
         inside = min(max(x, self.coordinate(self.low)), self.coordinate(self.high))
         return float(min(max(inside * self.unit if self.unit else np.exp(inside), self.low), self.high))
 
+    def told(self, x: float) -> str:
+        """The value at a coordinate as it is printed."""
+        return f"{self.value(x):.4g} {self.symbol}".rstrip()
+
     @property
     def ends(self) -> tuple[float, float]:
         """Coordinates of the ends of the search."""

@@ -1,5 +1,6 @@
 """`mdr fit`: the table, the files and the JSON of a fit, and what wrong input is told."""
 
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ from answers import json_of, words_of
 from conftest import contact
 
 import mdr
+from mdr.friction.cof_curve import friction_without_bound
 from mdr.given.case_file import read_case
 
 CASE = mdr.write_case(contact("cone", 10 / 3, 0.3, du_z=6e-6))
@@ -29,6 +31,24 @@ def test_a_fit_is_printed_and_written(files, capsys):
     assert read_case("out/fitted.toml") == found.case
     assert Path("out/fitted.toml").read_text().splitlines()[2] == "# 95% intervals:"
     assert {path.name for path in Path("out").iterdir()} == {"fitted.toml", "fit.png", "fit.svg"}
+
+
+def test_a_signal_and_a_limit_leave_the_best_so_far(files, capsys, monkeypatch):
+    """`timeout` sends SIGTERM; the status is that of an interrupt, and of a limit that of what has not ended."""
+    curves = []
+
+    def killed(*given):
+        curves.append(given)
+        if len(curves) == 4:
+            signal.raise_signal(signal.SIGTERM)
+        return friction_without_bound(*given)
+
+    before = signal.getsignal(signal.SIGTERM)
+    monkeypatch.setattr("mdr.friction.fit.friction_without_bound", killed)
+    assert "stopped by an interrupt: the best values so far" in words_of(capsys, [*files, "--free", "mu_0"], 130).out
+    assert signal.getsignal(signal.SIGTERM) is before
+    monkeypatch.setattr("mdr.friction.fit.time_is_over", lambda: len(curves) > 6)
+    assert "stopped by the limit of 300 s" in words_of(capsys, [*files, "--free", "mu_0", "--limit", "5min"], 1).out
 
 
 def test_machines_are_told_what_is_not_determined(files, capsys):

@@ -2,12 +2,15 @@
 
 import re
 from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from conftest import contact
 
 import mdr
+from mdr.friction.cof_curve import friction_without_bound
 
 TAU, MU_0 = 1e-3, 0.5
 CASE = contact("paraboloid", 2.0, 300.0 * TAU, du_z=10e-6, mu_0=MU_0)
@@ -122,3 +125,44 @@ def test_a_fit_prints_and_draws():
     below = ax.figure.axes[1]
     assert below.get_ylabel() == "measured\nless fitted"
     assert {text.get_text() for text in ax.get_legend().get_texts()} == {"measured", "fitted contact"}
+
+
+def test_runs_are_as_accurate_as_the_data_are_worth():
+    """With errors of 1 % runs are coarser, and the best fit moves by less than a tenth of its interval."""
+    v = mdr.critical_velocity(BODY) * np.linspace(0.1, 1.2, 6)
+    start, rough = replace(BODY, mu_0=0.45), measured(0.01, 1, BODY, v)
+    found = mdr.fit(start, rough, ["mu_0"])
+    assert 0 < found.cof_error < 0.1 * rough.error.min()
+    sharp = mdr.fit(start, replace(rough, error=1e-4 * rough.error), ["mu_0"])
+    assert sharp.cof_error < found.cof_error
+    assert abs(found.values["mu_0"] - sharp.values["mu_0"]) < 0.1 * (found.high["mu_0"] - found.low["mu_0"])
+
+
+def test_a_stop_answers_the_best_so_far(monkeypatch, capfd):
+    """By the limit, or an interrupt; before the first curve there is nothing to answer."""
+    curves = []
+
+    def interrupted(*given):
+        curves.append(given)
+        if len(curves) == 5:
+            raise KeyboardInterrupt
+        return friction_without_bound(*given)
+
+    monkeypatch.setattr("mdr.friction.fit.friction_without_bound", interrupted)
+    monkeypatch.setattr("mdr.tools.progress.time", SimpleNamespace(monotonic=count(0.0, 20.0).__next__))
+    data = measured(0.01)
+    found = mdr.fit(START, data, ["mu_0", "tau"])
+    assert found.stopped == "an interrupt"
+    assert "stopped by an interrupt: the best values so far" in found.warnings[0]
+    at_start = (mdr.cof_curve(START, data.v_0).cof - data.cof) / data.error
+    assert 0 < found.rms <= np.sqrt(np.mean(at_start**2)) * (1 + 1e-6)
+    assert re.search(r"fit, mu_0 = 0\.\d+, tau = \S+ s so far, \S+ left on average: \d curves", capfd.readouterr().err)
+    curves.append(None)
+    monkeypatch.setattr("mdr.friction.fit.time_is_over", lambda: len(curves) > 8)
+    assert mdr.fit(START, data, ["mu_0", "tau"], limit_s=60.0).stopped == "the limit of 60 s"
+    with pytest.raises(ValueError, match="limit_s = 60 s is over before the first curve is done; raise it"):
+        mdr.fit(START, data, ["mu_0", "tau"], limit_s=60.0)
+    monkeypatch.setattr("mdr.friction.fit.time_is_over", lambda: False)
+    curves[:] = [None] * 4
+    with pytest.raises(KeyboardInterrupt):
+        mdr.fit(START, data, ["mu_0", "tau"])
