@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import signal
+from functools import partial
 from typing import Any
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file
-from mdr.commands.output import Exit, answer, picked, refusals
+from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file, velocity
+from mdr.commands.output import Exit, WrongInput, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.fit import Fit
 from mdr.given.case_file import Said
@@ -32,6 +33,10 @@ def add_options_of_fit(command: argparse.ArgumentParser) -> None:
     seconds = plain_number("s", "a time such as 60s or 5min")
     limit = "computing time after which the best values so far are printed (status 1), as at Ctrl-C or SIGTERM (130)"
     command.add_argument("--limit", metavar="60s", type=seconds, help=limit)
+    over = "velocity of all rows, of friction over du_x, du_y, du_z, u_z0, load or frequency: columns du_x [um], cof"
+    command.add_argument("--v-0", metavar="velocity", type=velocity, help=over)
+    track = plain_number("m", "a length such as 12mm")
+    command.add_argument("--radius", metavar="12mm", type=track, help="of the track, where the velocity is in rpm")
     add_reading(command)
     add_output(command, "fitted.toml", "fit.png", "fit.svg")
 
@@ -39,7 +44,10 @@ def add_options_of_fit(command: argparse.ArgumentParser) -> None:
 def fit(args: argparse.Namespace, asked: Said) -> int:
     """Fit, write and print."""
     make_folder(args)
-    data = read_file(mdr.read_friction_data, args.data, args)
+    if args.v_0 is not None and args.v_0.of:
+        raise WrongInput("--v-0 is the velocity at which was measured: give it in m/s")
+    of_data = {"v_0": None if args.v_0 is None else args.v_0.number, "radius": args.radius}
+    data = read_file(partial(mdr.read_friction_data, **of_data), args.data, args)
     with refusals():
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
         before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # of `timeout`: as Ctrl-C

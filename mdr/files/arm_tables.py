@@ -23,13 +23,17 @@ MODULI = (
         needed=False,
     ),
     Column("E_j", ("E_i", "modulus"), "Pa", needed=False, bare=True),
-    Column("G_j", ("G_i", "shear modulus"), "Pa", needed=False, bare=True),
+    Column("G_j", ("G_i", "G", "G(i)", "G(j)", "Gm", "G_m", "Gk", "shear modulus"), "Pa", needed=False, bare=True),
 )
 ARMS = (
     *MODULI,
     Column("k_j", ("k_i", "k"), needed=False),  # shares of a bulk modulus, which finite-element programs have beside
-    Column("tau_j", ("tau_i", "tau", "τ", "relaxation time"), "s", bare=True, empty=np.inf),
 )
+TAU = Column(
+    "tau_j", ("tau_i", "tau", "tau(i)", "taum", "taui", "τ", "relaxation time"), "s", bare=True, empty=np.inf,
+    instead="beta_j [1/s], 1/tau_j",
+)  # fmt: skip
+BETA = Column("beta_j", ("beta_i", "beta", "β", "beta(i)", "decay constant"), "1/s", bare=True)
 
 
 def from_table(
@@ -45,7 +49,16 @@ def from_table(
         raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
-    return {**_from_csv(read_table(path, ARMS, reading), nu, instantaneous_of(E_0, G_0, nu)), "nu": nu}
+    try:
+        table = read_table(path, (*ARMS, TAU), reading)
+    except ValueError as refusal:
+        try:
+            table = read_table(path, (*ARMS, BETA), reading)
+        except ValueError:
+            raise refusal from None
+        with np.errstate(divide="ignore"):
+            table.values["tau_j"] = 1 / table.values["beta_j"]
+    return {**_from_csv(table, nu, instantaneous_of(E_0, G_0, nu)), "nu": nu}
 
 
 def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:

@@ -61,6 +61,8 @@ class Fit(Printed, ArrayRecord):
     @property
     def curve(self) -> CofCurve:
         """The curve of the fitted contact a little beyond the velocities measured, from rest; computed anew."""
+        if self.data.over:
+            raise ValueError(f"the data are over {self.data.over}: mdr.sweep({{...}}) of `case` draws friction over it")
         least, most = 1.05 * min(float(self.data.v_0.min()), 0.0), 1.05 * max(float(self.data.v_0.max()), 0.0)
         return cof_curve(self.case, np.linspace(least, most, 60))
 
@@ -326,7 +328,12 @@ class _Model:
             raise Ended
         self._ticker.tick()
         try:
-            return friction_without_bound(self.case_at(x), self.data.v_0, *size)
+            if self.data.values is None:
+                return friction_without_bound(self.case_at(x), self.data.v_0, *size)
+            over = path_of(self.case, self.data.over)
+            points = zip(self.data.values.tolist(), self.data.v_0, strict=True)
+            cases = ((case_of(self.case, {**self.held, **self.values(x), over: value}), v_0) for value, v_0 in points)
+            return np.concatenate([friction_without_bound(case, np.array([v_0]), *size) for case, v_0 in cases])
         except ValueError as refusal:
             where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(x).items())
             raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None

@@ -11,19 +11,20 @@ velocities the other way are negative.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
-from os import PathLike
+from os import PathLike, fsdecode
 
 import numpy as np
 
 from mdr.case.doubts import GREATEST_MU_0
-from mdr.files.measurements import read_table
+from mdr.files.measurements import read_table, require_rows
 from mdr.tools.arrays import Array
-from mdr.tools.checks import finite_array
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Units, table_of
+from mdr.tools.checks import finite, finite_array, positive
+from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 from mdr.tools.warned import warn_outside
@@ -31,12 +32,36 @@ from mdr.tools.warned import warn_outside
 _WORDS = ("error", "err", "std", "sd", "sem", "sigma", "uncertainty")
 _OF = tuple(f"{a} {b}" for one, two in product(("cof", "mu", "friction"), _WORDS) for a, b in ((one, two), (two, one)))
 ERRORS = (*_WORDS, *_OF, "error bar", "std dev", "standard deviation", "standard error", "u(mu)")
-COLUMNS = (
+VELOCITY = Column(
+    "v_0", ("v", "velocity", "speed", "sliding velocity", "sliding speed"), "m/s", lone=True, likely=(0.0, 100.0),
+    instead="v_0=, of friction over another column: du_x, du_y, du_z, u_z0, load or frequency",
+)  # fmt: skip
+FRICTION = (
     Column(
-        "v_0", ("v", "velocity", "speed", "sliding velocity", "sliding speed"), "m/s", lone=True, likely=(0.0, 100.0)
+        "cof",
+        ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"),
+        "-",
+        instead="forces, F_t [N] and F_n [N]",
     ),
-    Column("cof", ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"), "-"),
     Column("error", ERRORS, "-", needed=False),
+)
+FORCES = (
+    Column("F_t", ("Ft", "F_f", "Ff", "F_x", "friction force", "tangential force", "lateral force"), "N"),
+    Column("F_n", ("Fn", "F_N", "F_z", "normal force", "normal load"), "N"),
+    FRICTION[-1],
+)
+TURNING = VELOCITY._replace(unit="rad/s", lone=False, instead="", likely=(0.0, np.inf))
+#: what varies in the place of the velocity, by its name in a case
+OVER = tuple(
+    Column(name, (f"{part}.{name}" if part else name, *more), unit, needed=False)
+    for name, part, unit, more in (
+        ("du_x", "shake", "m", ()),
+        ("du_y", "shake", "m", ()),
+        ("du_z", "oscillation", "m", ()),
+        ("u_z0", "oscillation", "m", ()),
+        ("load", "", "N", ()),
+        ("frequency", "", "Hz", ("f", "freq")),
+    )
 )
 
 
@@ -47,9 +72,16 @@ class FrictionData(Summarised, ArrayRecord):
     v_0: Array  #: velocities [m/s], ascending; negative for a pull the other way, where the contact is shaken in plane
     cof: Array  #: coefficients of friction [-]; mean F_x over mean F_z, F_x positive where it holds the pull back
     error: Array | None = None  #: standard deviation of each [-], None where not known
+    over: str = ""  #: path of a number of the case that was varied, "" for the velocity alone
+    values: Array | None = None  #: its values, in SI, at each measurement
 
     def __post_init__(self) -> None:
+        if bool(self.over) != (self.values is not None):
+            raise ValueError("over, the path of what was varied, and values go together: give both or none")
+        if self.values is not None:
+            object.__setattr__(self, "v_0", np.broadcast_to(self.v_0, np.shape(self.values)))
         columns = {"v_0": "m/s", "cof": "", **({"error": ""} if self.error is not None else {})}
+        columns |= {"values": ""} if self.over else {}
         for name, unit in columns.items():
             values = np.array(finite_array(name, getattr(self, name), unit), ndmin=1)
             if values.ndim != 1 or values.size != np.size(self.v_0) or not values.size:
@@ -57,7 +89,7 @@ class FrictionData(Summarised, ArrayRecord):
             object.__setattr__(self, name, values)
         if self.error is not None and np.any(self.error <= 0):
             raise ValueError(f"error must be positive, got {float(self.error.min())!r}; leave it out where not known")
-        order = np.argsort(self.v_0, kind="stable")
+        order = np.argsort(self.v_0 if self.values is None else self.values, kind="stable")
         for name in columns:
             object.__setattr__(self, name, getattr(self, name)[order])
         super().__post_init__()
@@ -72,6 +104,7 @@ class FrictionData(Summarised, ArrayRecord):
             f"FrictionData of {self.v_0.size} measurements",
             [
                 ("v_0", span(self.v_0, "m/s"), "velocities"),
+                *([] if self.values is None else [(self.over, span(self.values), "what was varied, in SI")]),
                 ("COF", span(self.cof), "coefficients of friction"),
                 ("error", error, "standard deviation of each"),
             ],
@@ -79,26 +112,37 @@ class FrictionData(Summarised, ArrayRecord):
 
 
 def read_friction_data(
-    path: str | PathLike[str], *, units: Units = None, columns: Columns = None, skip: int | None = None
+    path: str | PathLike[str],
+    *,
+    units: Units = None,
+    columns: Columns = None,
+    skip: int | None = None,
+    v_0: float | None = None,
+    radius: float | None = None,
 ) -> FrictionData:
-    r"""Measured friction [-] over velocity from a CSV file.
+    r"""Measured friction [-] over velocity, or over another number of the case, from a CSV file.
 
     Parameters
     ----------
     path : str or path-like
         The file. Its header names the columns and the unit of the velocity, `v_0 [mm/s], cof, error`; the last is
-        optional.
+        optional. In the place of cof it may have the forces, `F_t [N], F_n [N]`: cof = F_t/F_n.
     units : dict of str, optional
         Unit of the velocity, where the header has none: {"v_0": "mm/s"}.
     columns : dict of str or int, optional
         What the header calls a column, {"cof": "Reibwert"}, or its number, from 1.
     skip : int, optional
         Lines above the header. None finds it.
+    v_0 : float, optional
+        The velocity [m/s] of all rows, in the place of its column, of a file of friction over du_x, du_y, du_z, u_z0,
+        load or frequency: `du_x [um], cof`.
+    radius : float, optional
+        Radius of the track [m], where the velocity is a turning speed, in rpm or rad/s.
 
     Returns
     -------
     FrictionData
-        Velocities in m/s, ascending.
+        Velocities in m/s, ascending; or what was varied, ascending.
 
     Raises
     ------
@@ -108,7 +152,7 @@ def read_friction_data(
     Warns
     -----
     PlausibilityWarning
-        Of columns that may be the error, where none is named so.
+        Of columns that may be the error, where none is named so, and of the mean load where the file has forces.
 
     Examples
     --------
@@ -117,19 +161,72 @@ def read_friction_data(
     >>> _ = Path("measured.csv").write_text("v_0 [mm/s], cof\n0.5, 0.31\n1.0, 0.35\n")
     >>> mdr.read_friction_data("measured.csv").v_0
     array([0.0005, 0.001 ])
+    >>> _ = Path("shaken.csv").write_text("du_x [um], cof\n0, 0.31\n1.0, 0.15\n")
+    >>> mdr.read_friction_data("shaken.csv", v_0=1e-3).values
+    array([0.e+00, 1.e-06])
     """
-    table, maybe = read_table(path, COLUMNS, Reading(units, columns, skip)), []
-    if "error" not in table.values and "error" not in (columns or {}):
-        for name in table.header.unread:
-            with suppress(ValueError), warnings.catch_warnings(action="ignore"):
-                reading = Reading(units, {**(columns or {}), "error": name}, skip)
-                error = table_of(table.text, table.source, COLUMNS, reading).values["error"]
-                if np.all((error > 0) & (error < table.values["cof"])):
-                    maybe.append(name)
+    if v_0 is not None and radius is not None:
+        raise ValueError("radius is of a column of turning speeds, and v_0= the velocity of all rows: give one")
+    reading = Reading(units, columns, skip)
+    if v_0 is None:
+        table, wanted = _first_read(path, (VELOCITY if radius is None else TURNING,), reading, radius is None)
+    else:
+        table, wanted = _first_read(path, OVER, reading, False)
+    found = table.values
+    over = [one.name for one in OVER if one.name in found]
+    if v_0 is not None and len(over) != 1:
+        what = f"{' and '.join(over)}, and one is varied; leave out the others" if over else "nothing that is varied"
+        raise table.lacks(what, "du_x [um], cof", *(over or ["du_x"]))
+    cof = found["cof"] if "cof" in found else _of_forces(table)
+    if "error" not in found and "error" not in (columns or {}):
+        _look_for_errors(table, wanted, reading, cof)
+    if v_0 is not None:
+        velocity, varied = np.full(cof.shape, finite("v_0", v_0)), over[0]
+    else:
+        velocity = found["v_0"] * (1 if radius is None else positive("radius", radius, "of the track in m"))
+        varied = ""
+    try:
+        return FrictionData(velocity, cof, found.get("error"), varied, found.get(varied))
+    except ValueError as refusal:
+        raise table.fault(str(refusal)) from None
+
+
+def _first_read(
+    path: str | PathLike[str], first: tuple[Column, ...], reading: Reading, may_turn: bool
+) -> tuple[Table, tuple[Column, ...]]:
+    """The file by its coefficients, else by its forces, and the columns; the refusal is that of the first."""
+    refused: ValueError | None = None
+    for kind in (FRICTION, FORCES):
+        try:
+            return read_table(path, (*first, *kind), reading), (*first, *kind)
+        except ValueError as refusal:
+            refused = refused or refusal
+    assert refused is not None
+    if may_turn:
+        with suppress(ValueError), warnings.catch_warnings(action="ignore"):
+            _first_read(path, (TURNING,), reading, False)
+            refused = fault(fsdecode(path), "v_0 is a turning speed: give radius=, of the track in m, or v_0 in m/s")
+    raise refused from None
+
+
+def _of_forces(table: Table) -> Array:
+    """F_t/F_n, with the mean load, which is told."""
+    F_t, F_n = table.values["F_t"], table.values["F_n"]
+    require_rows(table, F_n > 0, "F_n presses and must be positive")
+    load = f"the mean load is {F_n.mean():.4g} N, of {F_n.min():.4g} to {F_n.max():.4g} N"
+    warn_outside(f"{table.source}: cof = F_t/F_n is taken; {load}")
+    return np.asarray(F_t / F_n)
+
+
+def _look_for_errors(table: Table, wanted: Sequence[Column], reading: Reading, cof: Array) -> None:
+    """Warn of columns that may be the error, where none is named so."""
+    maybe = []
+    for name in table.header.unread:
+        with suppress(ValueError), warnings.catch_warnings(action="ignore"):
+            again = reading._replace(columns={**(reading.columns or {}), "error": name})
+            error = table_of(table.text, table.source, wanted, again).values["error"]
+            if np.all((error > 0) & (error < cof)):
+                maybe.append(name)
     if maybe:
         say = f'columns={{"error": "{maybe[0]}"}}'
         warn_outside(f"{table.source}: no error is known; if {' or '.join(maybe)} is that of the COF, say {say}")
-    try:
-        return FrictionData(**table.values)
-    except ValueError as refusal:
-        raise table.fault(str(refusal)) from None

@@ -338,7 +338,8 @@ class Prony(_WithArms):
         ----------
         path : str or path-like
             CSV: columns E_j and tau_j under a header that names them and their units (without units, Pa and s); the row
-            with tau_j = inf, or an empty one, is E_inf. G_j are shear moduli, g_j shares of the instantaneous modulus.
+            with tau_j = inf, or an empty one, is E_inf. G_j are shear moduli, g_j shares of the instantaneous modulus;
+            in the place of tau_j a column beta_j has decay constants, 1/tau_j.
             TOML: a [material] table with E_inf, arms = [[E_j, tau_j], ...], nu and, if wanted, tau, as in a case file.
         nu : float, optional
             Poisson's ratio [-]. A CSV file needs it; it takes the place of the one in a TOML file.

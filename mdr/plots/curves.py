@@ -102,7 +102,10 @@ def plot_fit(fitted: Any, ax: Axes | None = None) -> Axes:
     matplotlib.axes.Axes
         Where data and curve were drawn.
     """
-    data, curve = fitted.data, fitted.curve
+    data = fitted.data
+    if data.over:
+        return _plot_fit_over(fitted, ax)
+    curve = fitted.curve
     if ax is not None and ax.has_data() and OVER_V_C in ax.get_xlabel():
         raise ValueError("ax shows friction over v_0/v_c, and data are over v_0: plot the curve with absolute=True")
     factor, unit = _prefix_on(ax, data.v_0)
@@ -118,6 +121,18 @@ def plot_fit(fitted: Any, ax: Axes | None = None) -> Axes:
         _limits(ax, fitted.case.mu_0, fitted.case.is_shaken)
         ax.set(xlabel=velocity, ylabel=r"coefficient of friction $\mu$")
         ax.label_outer()
+        ax.legend()
+    return ax
+
+
+def _plot_fit_over(fitted: Any, ax: Axes | None) -> Axes:
+    """Measured and fitted friction over what was varied beside the velocity, in SI."""
+    data = fitted.data
+    with style():
+        ax = subplots()[1] if ax is None else ax
+        ax.errorbar(data.values, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
+        ax.plot(data.values, data.cof - fitted.residuals, ".-", color=COLOURS[0], label="fitted contact")
+        ax.set(xlabel=f"{data.over} [SI]", ylabel=r"coefficient of friction $\mu$")
         ax.legend()
     return ax
 

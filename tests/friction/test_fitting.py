@@ -11,6 +11,7 @@ from conftest import contact
 
 import mdr
 from mdr.friction.cof_curve import friction_without_bound
+from mdr.given.vary import case_at
 
 TAU, MU_0 = 1e-3, 0.5
 CASE = contact("paraboloid", 2.0, 300.0 * TAU, du_z=10e-6, mu_0=MU_0)
@@ -166,3 +167,20 @@ def test_a_stop_answers_the_best_so_far(monkeypatch, capfd):
     curves[:] = [None] * 4
     with pytest.raises(KeyboardInterrupt):
         mdr.fit(START, data, ["mu_0", "tau"])
+
+
+@pytest.mark.parametrize("over", ["du_z", "shake.du_x"])
+def test_friction_over_an_amplitude_at_one_velocity_is_fitted(over):
+    """As most papers measure it; the values of the case itself at that path do not matter."""
+    shaken = replace(contact("cone", du_z=6e-6, mu_0=MU_0), shake=mdr.InPlaneOscillation(300.0, du_x=5e-6))
+    values = np.array([1e-6, 2e-6, 4e-6, 6e-6, 8e-6])
+    cof = [
+        mdr.cof_curve(case_at(shaken, {f"oscillation.{over}" if "." not in over else over: x}), [4e-4]).cof[0]
+        for x in values
+    ]
+    data = mdr.FrictionData(4e-4, cof, np.full(5, 1e-4), over, values)
+    found = mdr.fit(replace(shaken, mu_0=0.4), data, ["mu_0"])
+    assert found.values["mu_0"] == pytest.approx(MU_0, rel=1e-3)
+    assert found.plot().get_xlabel() == f"{over} [SI]"
+    with pytest.raises(ValueError, match="the data are over"):
+        _ = found.curve

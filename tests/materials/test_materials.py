@@ -181,6 +181,18 @@ def test_tables_of_arms(tmp_path):
     assert mdr.Prony.read(case, nu=0.45) == mdr.Prony(1e6, [(2e6, 0.01)], 0.45)  # the ratio beside a table is taken
 
 
+def test_decay_constants_and_shear_arms(tmp_path):
+    """beta_j = 1/tau_j, 0 that of E_inf; G under any of its names is a shear modulus, E = 2 (1 + nu) G."""
+    for text in (
+        "G_i [MPa],beta_i [1/s]\n2,100\n3,0\n",
+        "Branch,Gm (MPa),taum (ms)\n1,2,10\n2,3,inf\n",
+        "G(i) [kPa],tau(i) [s]\n2e3,0.01\n3e3,\n",
+    ):
+        (tmp_path / "arms.csv").write_text(text)
+        body = mdr.Prony.read(tmp_path / "arms.csv", nu=0.5)
+        assert_allclose([body.E_inf, *body.arms[0]], [9e6, 6e6, 0.01])
+
+
 def test_a_fit_that_misses_says_what_may_help():
     """Several temperatures, too few arms, and data of no passive body; arms with noise of 3 % are silent."""
     noisy = YOUNG * (1 + 0.03 * np.random.default_rng(5).normal(size=61))
