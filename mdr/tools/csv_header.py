@@ -39,6 +39,8 @@ class Column(NamedTuple):
     instead: str = ""  #: what may be given in its place
     empty: float | None = None  #: what an empty cell, or inf, stands for; None refuses them
     likely: tuple[float, float] = (0.0, math.inf)  #: range of the greatest absolute value; outside a unit may be wrong
+    doubtful: tuple[str, ...] = ()  #: names that may mean another quantity: asked about, unless `columns=` names them
+    asked: str = ""  #: what else a doubtful name may mean, and the way out then
 
     @property
     def example(self) -> str:
@@ -113,12 +115,13 @@ class Header:
         self.faults: list[str] = []
         self._take_called()
         self._take_named()
+        asked = self._ask()
         self._take_lone()
         self.places = [Place(one, self.at[one.name], self._unit(one)) for one in columns if one.name in self.at]
         self.faults += [what for place in self.places if (what := self._fault(place.column))]
         wanted = [one for one in columns if one.needed or one.name in {*units, *called}]
         self.absent = [one for one in wanted if one.name not in self.at and called.get(one.name) != ""]
-        if unnamed := [one for one in self.absent if one.name not in called]:
+        if unnamed := [one for one in self.absent if one.name not in {*called, *asked}]:
             self.faults.insert(0, self._lacks(unnamed))
 
     def way_out(self, more: Sequence[Column] = ()) -> str:
@@ -184,6 +187,24 @@ class Header:
                     if found:
                         self._take(column, found)
 
+    def _ask(self) -> set[str]:
+        """Ask about cells whose name may mean one of the missing columns or another quantity; the columns asked for."""
+        asked: dict[int, list[Column]] = {}
+        for column in self.columns:
+            if column.name not in {*self.at, *self.called}:
+                for i in self._free():
+                    rank = self.heads[i].spelling(column.doubtful)
+                    unit = self.heads[i].unit_of(column, column.doubtful)
+                    if rank is not None and (column.measured_in(unit) or not unit):
+                        asked.setdefault(i, []).append(column)
+        for i, columns in asked.items():
+            head, whose = short(self.heads[i].whole), " or ".join(one.name for one in columns)
+            ways = [f'if it is {one.name}, columns={{"{one.name}": "{short(self.heads[i].name)}"}}' for one in columns]
+            ways += dict.fromkeys(one.asked for one in columns if one.asked)
+            ways += [f'columns={{"{one.name}": ""}} leaves it out' for one in columns[:1] if not one.needed]
+            self.faults.append(f"{head} may be {whose}, or another quantity: {'; '.join(ways)}")
+        return {one.name for columns in asked.values() for one in columns}
+
     def _take_lone(self) -> None:
         """The columns that are missing, where one cell alone is in a unit of them."""
         is_bare = not any(one.name in self.at for one in self.columns if not one.needed)
@@ -191,6 +212,8 @@ class Header:
             is_open = column.lone and column.name not in self.at and column.name not in self.called
             if is_open and (column.needed or is_bare):
                 of_unit = [i for i, head in enumerate(self.heads) if self._measures(i, column)]
+                if any(self.heads[i].spelling(column.doubtful) is not None for i in of_unit):
+                    continue  # asked about
                 if len(of_unit) == 1 and of_unit[0] in self._free():
                     self._take(column, of_unit)
                     self.said.append(f"{short(self.heads[of_unit[0]].whole)} is read as {column.name}")

@@ -78,6 +78,7 @@ class Reading(NamedTuple):
     units: Units = None
     columns: Columns = None
     skip: int | None = None  #: lines above the header; None finds it
+    table: int | str | None = None  #: which table of the file, from 1, or words of a line above it; None: the only one
 
 
 class Table(NamedTuple):
