@@ -21,7 +21,8 @@ from mdr.tools.warned import PlausibilityWarning
 from mdr.files.case_files import write_case
 from mdr.files.toml_text import CaseFileError
 from mdr.files.force_curves import read_force_curve
-from mdr.files.measurements import read_moduli, read_record
+from mdr.files.measurements import read_moduli
+from mdr.files.recorded_motion import read_record
 from mdr.files.step_tests import read_creep, read_relaxation
 from mdr.files.own_records import register
 from mdr.spring.contact_modes import State

@@ -175,7 +175,7 @@ class SampledProfile(Indenter):
         >>> mdr.SampledProfile.read("scan.csv")
         SampledProfile(7 points to r = 6e-06 m, tip='round')
         """
-        from mdr.files.measurements import profile_points
+        from mdr.files.profiles import profile_points
 
         r, f = profile_points(path, Reading(units, columns, skip), finite("apex", apex), side, flip)
         nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}

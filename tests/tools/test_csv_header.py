@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from mdr.files.force_curves import FORCE
-from mdr.files.measurements import MODULI, MOTION, PROFILE
+from mdr.files.measurements import MODULI
+from mdr.files.profiles import PROFILE
+from mdr.files.recorded_motion import MOTION
 from mdr.friction.friction_data import COLUMNS
 from mdr.tools.csv_table import Reading, table_of
 
