@@ -10,20 +10,28 @@ the touches of a round and of a sharp one: a cone with a round end has its touch
 
 from __future__ import annotations
 
+import re
+from itertools import pairwise
 from os import PathLike
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.files.measurements import read_table
 from mdr.indenters.mapping.force_curves import TIPS, tip_of
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import finite
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Table, Units
+from mdr.tools.messages import MOST_TOLD
+from mdr.tools.turning_points import reach_of_noise, turning_points
 from mdr.tools.warned import warn_outside
 
 PARTS = ("approach", "retract")
+LEAST_PART = 0.02  #: share of the whole way from which on a way back is no jitter
+LEAST_RISE = 0.1  #: share of the range of forces that a part changes by, and what happens in the air does not
+SLOW = 0.1  #: share of the rate of the depth, below which a tip is held
 RISE = 0.3  #: share of the force up to which touch and baseline are looked for
 ON_IT = 1e-3  #: part of a step of depth within which a reading is that of the touch
 POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat one to a cone
@@ -85,13 +93,15 @@ def read_force_curve(
     >>> print(f"{curve.baseline:.3g} N, {curve.depths[-1]:.2g} m")
     0.001 N, 8e-06 m
     """
-    if part not in PARTS:
-        raise ValueError(f"part must be one of {', '.join(PARTS)}, got {part!r}")
+    if not re.fullmatch(rf"({'|'.join(PARTS)})( [1-9]\d*)?", part):
+        raise ValueError(f'part must be one of {", ".join(PARTS)}, or "approach 2" of several, got {part!r}')
     power = TIPS[tip_of("tip", tip)]
     touch = None if touch is None else finite("touch", touch, "reading of d in m")
     baseline = None if baseline is None else finite("baseline", baseline, "force before the touch in N")
     table = read_table(path, FORCE, Reading(units, columns, skip))
-    d, F = _one_way(table, part)
+    z, F = table.values["d"], table.values["F"]
+    rows = _one_way(table, z, F, part)
+    d, F = _in_order(z[rows], F[rows])
     if d.size > 2 * TOLD_FROM and np.sum(np.diff(F) ** 2) > np.sum((F - F.mean()) ** 2):  # of noise alone it is twice
         raise table.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
     # the point (0, 0) is added to a depth that is at most three of the widest steps away
@@ -158,25 +168,82 @@ def _doubt(table: Table, F: Array, d: Array, touch: float) -> None:
         )
 
 
-def _one_way(table: Table, part: str) -> tuple[Array, Array]:
-    """The rows up to the greatest depth, or from there on in the order of depth."""
-    d, F, lines = table.values["d"], table.values["F"], np.array(table.lines)
-    turn = int(np.argmax(d))
-    if part == "retract":
-        rows = np.arange(d.size - 1, d.size - 2 - int(np.argmax(d[::-1])), -1)
-    elif d.size > 1 and turn == 0:
-        raise table.fault(f'd only falls, from {d[0]:.6g} m: part="retract" takes such a curve')
-    elif d.size - turn > 3 and d[-1] < d[turn] - 0.5 * np.ptp(d):  # it goes back, and not by noise
-        rows = np.arange(turn + 1)
-    else:
-        rows = np.arange(d.size)
-    d, F, lines = d[rows], F[rows], lines[rows]
-    falls = np.flatnonzero(np.diff(d) <= 0)
-    if falls.size:
-        i = int(falls[0])
-        what = f"d must ascend, got {d[i + 1]:.6g} m after {d[i]:.6g} m; give one way alone, sorted"
-        raise table.fault(f"line {lines[i + 1]}: {what}")
-    return d, F
+def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
+    """The rows of one part of the curve, from its least reading z to its greatest; what no part holds is told."""
+    lines, turns = table.lines, turning_points(z, max(reach_of_noise(z), LEAST_PART * float(np.ptp(z))))
+    parts: dict[str, list[tuple[int, int]]] = {way: [] for way in (*PARTS, "")}
+    for first, end in ((first, last + 1) for first, last in pairwise(turns)):
+        is_loaded = np.ptp(F[first:end]) >= LEAST_RISE * np.ptp(F)
+        parts[PARTS[int(z[end - 1] < z[first])] if is_loaded else ""].append((first, end))
+    way, _, number = part.partition(" ")
+    found, k = parts[way], int(number or 1) - 1
+    if k >= len(found) or (len(found) > 1 and not number):
+        there = [
+            f'part="{one}{f" {n}" if len(parts[one]) > 1 else ""}" of lines {lines[first]} to {lines[end - 1]}'
+            for one in PARTS
+            for n, (first, end) in enumerate(parts[one], 1)
+        ]
+        more = [f"and {len(there) - MOST_TOLD} more"] if len(there) > MOST_TOLD else []
+        what = f"{len(found)} parts of the curve are" if found else "no part of the curve is"
+        raise table.fault(f"{what} {way}: choose {', '.join([*there[:MOST_TOLD], *more])}")
+    first, end = found[k]
+    rows = np.arange(first, end) if way == "approach" else np.arange(end - 1, first - 1, -1)
+    rows = rows[: int(np.argmax(z[rows])) + 1]
+    is_high = F[rows] > 0.5 * (F[rows].min() + F[rows].max())
+    rows = rows[: min(_before_a_hold(x[rows], is_high) for x in (z, F))]
+    unread = sorted([*parts[""], (first, int(rows.min())), (int(rows.max()) + 1, end)])
+    if said := [f"{lines[a]} to {lines[b - 1]}" for a, b in unread if b > a]:
+        what = f"lines {' and '.join(said)} are left out of the {part}"
+        warn_outside(f"{table.source}: {what}: the tip is held there, or does not touch")
+    return rows
+
+
+def _before_a_hold(x: Array, is_high: NDArray[np.bool_]) -> int:
+    """How many readings there are before depths, or forces, all but stand still, under a force that was raised."""
+    start, noise = 0, reach_of_noise(x)
+    while (n := x.size - start) > LEAST:
+        ahead = x[start:] - np.linspace(x[start], x[-1], n)
+        k = start + int(np.argmax(ahead))  # where it slows most
+        if ahead[k - start] <= noise or x.size - k <= LEAST:
+            break
+        if is_high[k] and (x[-1] - x[k]) / (x.size - 1 - k) < SLOW * (x[k] - x[start]) / (k - start):
+            return k + 1
+        start = k
+    return int(x.size)
+
+
+def _in_order(d: Array, F: Array) -> tuple[Array, Array]:
+    """Depths that ascend: as they are, sorted, or smoothed over the readings where forces know nothing of their noise.
+
+    Forces follow a tip that shakes, and not the noise of what reads its depth.
+    """
+    as_read, smooth = (_sorted(one, F) for one in (d, _smoothed(d)))
+    return smooth if _scatter(*smooth) < (1 - d.size**-0.5) * _scatter(*as_read) else as_read
+
+
+def _smoothed(d: Array) -> Array:
+    """Depths on a spline over the number of the reading, of as many pieces as tell more than noise (BIC)."""
+    from scipy.interpolate import make_lsq_spline
+
+    n, best = np.linspace(0, 1, d.size), (np.inf, d)
+    for pieces in 2 ** np.arange(int(np.log2(max(d.size / 8, 1)))):
+        knots = np.concatenate([[0.0] * 3, np.linspace(0, 1, pieces + 1), [1.0] * 3])
+        smooth = np.asarray(make_lsq_spline(n, d, knots)(n))
+        rest = max(float(np.var(d - smooth)), EXACT * float(np.var(d)))
+        best = min(best, (d.size * np.log(rest) + pieces * np.log(d.size), smooth), key=lambda one: one[0])
+    return best[1]
+
+
+def _sorted(d: Array, F: Array) -> tuple[Array, Array]:
+    """Pairs in the order of depth; at one depth the mean of the forces."""
+    there, which, counts = np.unique(d, return_inverse=True, return_counts=True)
+    return there, np.bincount(which, F) / counts
+
+
+def _scatter(d: Array, F: Array) -> float:
+    """Mean square of forces off the straight line between the two beside them."""
+    share = (d[1:-1] - d[:-2]) / (d[2:] - d[:-2])
+    return float(np.mean((F[1:-1] - F[:-2] - share * (F[2:] - F[:-2])) ** 2)) if d.size > 2 else 0.0
 
 
 def _begins_before(d: Array, F: Array, touch: float, are_depths: bool) -> bool:
