@@ -21,9 +21,10 @@ OPTIONS: dict[str, tuple[str | None, str | None, str]] = {
     "side": ("", None, "of the tip: both, left or right"),
     "kinks": ("m", None, "radii of edges"),
     "flip": ("", None, "the tip was measured pointing up"),
-    "part": (None, "", "approach or retract"),
+    "part": (None, "", "approach or retract; of several 'approach 2'"),
     "touch": (None, "m", "reading of the depth at first touch (default: found)"),
     "baseline": (None, "N", "force before the touch (default: found)"),
+    "spring_constant": (None, "N/m", "stiffness of the cantilever, where heights of its piezo are given: 2N/m"),
 }
 SOURCES: dict[str, tuple[Any, Any]] = {
     "moduli": (mdr.read_moduli, mdr.Prony.fit),
@@ -43,7 +44,7 @@ def add_options_of_indenter(command: argparse.ArgumentParser) -> None:
     for name, (*_, meaning) in OPTIONS.items():
         flag: dict[str, Any] = {"action": "store_true", "default": None}
         how = flag if name == "flip" else {"nargs": "+" if name == "kinks" else None, "metavar": name}
-        command.add_argument(f"--{name}", help=meaning, **how)
+        command.add_argument(f"--{name.replace('_', '-')}", help=meaning, **how)
     add_reading(command)
     command.epilog = "The table [indenter] goes into a case file."
 
@@ -55,7 +56,8 @@ def indenter(args: argparse.Namespace, _: None) -> int:
     for name, (of_heights, of_forces, _meaning) in OPTIONS.items():
         value, unit = getattr(args, name), of_forces if is_force else of_heights
         if value is not None and unit is None:
-            raise WrongInput(f"--{name} is of {'heights' if is_force else 'forces, which need --E-star'}: leave it out")
+            option, of = name.replace("_", "-"), "heights" if is_force else "forces, which need --E-star"
+            raise WrongInput(f"--{option} is of {of}: leave it out")
         if value is not None:
             given[name] = _value(name, value, unit) if unit else value
     read = mdr.FromForce.read if is_force else mdr.SampledProfile.read

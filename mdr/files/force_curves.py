@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from mdr.files.measurements import read_table
 from mdr.indenters.mapping.force_curves import TIPS, tip_of
 from mdr.tools.arrays import EXACT, Array
-from mdr.tools.checks import finite
+from mdr.tools.checks import finite, positive
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Table, Units
 from mdr.tools.messages import MOST_TOLD
@@ -38,10 +38,14 @@ POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat on
 FLAT = 5  #: points before the touch that make a baseline
 TOLD_FROM = 10  #: the same, from which their noise is known
 LEAST = 2  #: the same of a curve whose readings are no depths
-FORCE = (
-    Column("d", ("depth", "indentation", "displacement", "extension"), "m", lone=True, likely=(1e-12, 0.01)),
-    Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6)),
-)
+DEPTHS = ("depth", "indentation", "indentation depth", "penetration", "penetration depth")
+HEIGHTS = (
+    "displacement", "extension", "height", "measured height", "height sensor", "piezo", "piezo height",
+    "piezo position", "z", "z position", "z piezo", "z sensor", "position", "travel",
+)  # fmt: skip
+OF_PIEZO = "if the height of a piezo, the stiffness of its cantilever too, spring_constant= in N/m"
+OF_DEPTH = "of a depth, leave spring_constant out"
+FORCE = Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6))
 
 
 class ForceCurve(NamedTuple):
@@ -65,12 +69,13 @@ def read_force_curve(
     touch: float | None = None,
     baseline: float | None = None,
     tip: str = "any",
+    spring_constant: float | None = None,
 ) -> ForceCurve:
     r"""Normal force [N] over depth [m] from a CSV file, with its touch and baseline: to look at what is taken.
 
     Parameters
     ----------
-    path, units, columns, skip, part, touch, baseline, tip
+    path, units, columns, skip, part, touch, baseline, tip, spring_constant
         As in `FromForce.read`.
 
     Returns
@@ -98,22 +103,31 @@ def read_force_curve(
     power = TIPS[tip_of("tip", tip)]
     touch = None if touch is None else finite("touch", touch, "reading of d in m")
     baseline = None if baseline is None else finite("baseline", baseline, "force before the touch in N")
-    table = read_table(path, FORCE, Reading(units, columns, skip))
-    z, F = table.values["d"], table.values["F"]
+    is_depth = spring_constant is None
+    names, doubtful = (DEPTHS, HEIGHTS) if is_depth else (HEIGHTS, ("d", *DEPTHS))
+    asked = OF_PIEZO if is_depth else OF_DEPTH
+    depth = Column("d", names, "m", likely=(1e-12, 0.01), doubtful=doubtful, asked=asked)
+    table = read_table(path, (depth, FORCE), Reading(units, columns, skip))
+    sign = _inwards(table)
+    z, F = sign * table.values["d"], table.values["F"]
     rows = _one_way(table, z, F, part)
-    d, F = _in_order(z[rows], F[rows])
+    z, F = z[rows], F[rows]
+    touch = None if touch is None else sign * touch
+    if touch is not None and baseline is None and np.any(z < touch):
+        baseline = float(F[z < touch].mean())
+        warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
+    give = 0.0 if is_depth else 1 / positive("spring_constant", spring_constant, "in N/m")
+    d, F = _in_order(z - give * (F - (baseline or 0.0)), F)
     if d.size > 2 * TOLD_FROM and np.sum(np.diff(F) ** 2) > np.sum((F - F.mean()) ** 2):  # of noise alone it is twice
         raise table.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
     # the point (0, 0) is added to a depth that is at most three of the widest steps away
     are_depths = d.size < 2 or 0 <= d[0] <= 3.0 * float(np.diff(d).max())
     found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST else None
     if found is not None and _begins_before(d, F, found[0], are_depths):
-        touch, baseline = found[0], found[1] if baseline is None else baseline
-        taken = f"touch={touch:.6g} m and baseline={baseline:.4g} N are taken, as found"
+        unbent = give * found[1] if baseline is None else 0.0  # of a cantilever, by what was not taken off yet
+        touch, baseline, d = found[0] + unbent, found[1] if baseline is None else baseline, d + unbent
+        taken = f"touch={sign * touch:.6g} m and baseline={baseline:.4g} N are taken, as found"
         warn_outside(f"{table.source}: {taken}{'' if power else _of_other_tips(d, F)}")
-    elif touch is not None and baseline is None and np.any(d < touch):
-        baseline = float(F[d < touch].mean())
-        warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
     baseline = baseline or 0.0
     if touch is not None:
         _doubt(table, F - baseline, d, touch)
@@ -168,6 +182,16 @@ def _doubt(table: Table, F: Array, d: Array, touch: float) -> None:
         )
 
 
+def _inwards(table: Table) -> int:
+    """1 where the readings of depth or height rise as the tip is pressed; -1, which is told, where they fall."""
+    z, F = table.values["d"], table.values["F"]
+    middle = np.median(F)
+    if F.size < 3 or (z - z.mean()) @ (F - F.mean()) >= 0 or F.max() - middle < middle - F.min():
+        return 1
+    warn_outside(f"{table.source}: d is turned, as the force rises where it falls: it points out of the body")
+    return -1
+
+
 def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
     """The rows of one part of the curve, from its least reading z to its greatest; what no part holds is told."""
     lines, turns = table.lines, turning_points(z, max(reach_of_noise(z), LEAST_PART * float(np.ptp(z))))
@@ -188,13 +212,16 @@ def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
         raise table.fault(f"{what} {way}: choose {', '.join([*there[:MOST_TOLD], *more])}")
     first, end = found[k]
     rows = np.arange(first, end) if way == "approach" else np.arange(end - 1, first - 1, -1)
-    rows = rows[: int(np.argmax(z[rows])) + 1]
-    is_high = F[rows] > 0.5 * (F[rows].min() + F[rows].max())
+    is_high = F[rows] - F[rows].min() > LEAST_RISE * np.ptp(F[rows])
     rows = rows[: min(_before_a_hold(x[rows], is_high) for x in (z, F))]
-    unread = sorted([*parts[""], (first, int(rows.min())), (int(rows.max()) + 1, end)])
-    if said := [f"{lines[a]} to {lines[b - 1]}" for a, b in unread if b > a]:
-        what = f"lines {' and '.join(said)} are left out of the {part}"
-        warn_outside(f"{table.source}: {what}: the tip is held there, or does not touch")
+    unread = np.ones(z.size, dtype=bool)
+    for others in (run for one in PARTS for run in parts[one] if run != (first, end)):
+        unread[slice(*others)] = False
+    unread[rows] = False
+    if np.any(unread):
+        ends = np.flatnonzero(np.diff(unread, prepend=False, append=False)).reshape(-1, 2)
+        said = " and ".join(f"{lines[a]} to {lines[b - 1]}" for a, b in ends)
+        warn_outside(f"{table.source}: lines {said} are left out: the tip is held there, or does not touch")
     return rows
 
 
@@ -222,15 +249,16 @@ def _in_order(d: Array, F: Array) -> tuple[Array, Array]:
 
 
 def _smoothed(d: Array) -> Array:
-    """Depths on a spline over the number of the reading, of as many pieces as tell more than noise (BIC)."""
+    """Depths on a line or a spline over the number of the reading, of as many pieces as tell more than noise (BIC)."""
     from scipy.interpolate import make_lsq_spline
 
     n, best = np.linspace(0, 1, d.size), (np.inf, d)
-    for pieces in 2 ** np.arange(int(np.log2(max(d.size / 8, 1)))):
-        knots = np.concatenate([[0.0] * 3, np.linspace(0, 1, pieces + 1), [1.0] * 3])
-        smooth = np.asarray(make_lsq_spline(n, d, knots)(n))
+    for degree, pieces in ((1, 1), *((3, 2**k) for k in range(int(np.log2(max(d.size / 8, 1)))))):
+        knots = np.concatenate([[0.0] * degree, np.linspace(0, 1, pieces + 1), [1.0] * degree])
+        smooth = np.asarray(make_lsq_spline(n, d, knots, degree)(n)) if d.size > 2 * degree else d
         rest = max(float(np.var(d - smooth)), EXACT * float(np.var(d)))
-        best = min(best, (d.size * np.log(rest) + pieces * np.log(d.size), smooth), key=lambda one: one[0])
+        score = d.size * np.log(rest) + (degree + pieces) * np.log(d.size)
+        best = min(best, (score, smooth), key=lambda one: one[0])
     return best[1]
 
 

@@ -100,6 +100,7 @@ class FromForce(Indenter):
         baseline: float | None = None,
         tip: str = "any",
         smoothing: float = 0.0,
+        spring_constant: float | None = None,
     ) -> FromForce:
         r"""The shape of a measured force–indentation curve in a CSV file.
 
@@ -117,7 +118,8 @@ class FromForce(Indenter):
         skip : int, optional
             Lines above the header. None finds it.
         part : str
-            "approach", to the greatest depth, or "retract", back from it.
+            "approach", to the greatest depth, or "retract", back from it; of several "approach 2". Holds and ways
+            without contact are left out. Depths are sorted, or smoothed, within their noise.
         touch : float, optional
             Reading of the depth at first touch [m], from which depths count; what was measured before is left out.
             None: found where the curve begins before the touch, else the readings are depths.
@@ -127,6 +129,9 @@ class FromForce(Indenter):
             "any", "round", "sharp" or "flat".
         smoothing : float
             Standard deviation of the noise of the forces [N].
+        spring_constant : float, optional
+            Stiffness k of a cantilever [N/m], whose piezo's height z the file has in the place of depths: d = z - F/k,
+            with F less a `baseline` that is given.
 
         Returns
         -------
@@ -145,8 +150,8 @@ class FromForce(Indenter):
         Warns
         -----
         PlausibilityWarning
-            Of touch and baseline that were found, of a force that drifts before the touch, and of one that pulls, as in
-            an adhesive contact.
+            Of touch and baseline that were found, of lines that are left out, of a force that drifts before the touch,
+            and of one that pulls, as in an adhesive contact.
 
         Examples
         --------
@@ -161,8 +166,9 @@ class FromForce(Indenter):
         from mdr.files.measurements import LIKELY_MODULUS
 
         curve = read_force_curve(
-            path, units=units, columns=columns, skip=skip, part=part, touch=touch, baseline=baseline, tip=tip
-        )
+            path, units=units, columns=columns, skip=skip, part=part, touch=touch, baseline=baseline, tip=tip,
+            spring_constant=spring_constant,
+        )  # fmt: skip
         d, F = curve.depths, curve.forces
         try:
             shape = cls(d, F, E_star, tip=tip, smoothing=smoothing)  # type: ignore[arg-type]

@@ -1,6 +1,7 @@
 """Force curves: approach and retract, touch and baseline, of a known ball and cone."""
 
 import re
+import warnings
 from itertools import product
 
 import numpy as np
@@ -134,7 +135,7 @@ def test_approach_and_retract_are_apart(tmp_path):
     for part, tip, shape in [("approach", "round", BALL), ("retract", "sharp", CONE)]:
         found = read(path, part=part, tip=tip)
         assert_allclose(found.force(DEPTH / 2, E_STAR), shape.force(DEPTH / 2, E_STAR), rtol=1e-4)
-    with pytest.raises(ValueError, match='part="retract" takes such a curve'):
+    with pytest.raises(ValueError, match='no part of the curve is approach: choose part="retract" of lines 4 to 204'):
         read(written(path, z[::-1], F[::-1]))
     with pytest.raises(ValueError, match="part must be one of approach, retract"):
         read(path, part="both")
@@ -145,3 +146,101 @@ def test_readings_that_are_depths_are_left_as_they_are(tmp_path, shape):
     d = np.linspace(0, DEPTH, 31)[1:]
     path = written(tmp_path / "data.csv", d, np.asarray(shape.force(d, E_STAR)))
     assert_allclose(read(path).d[1:], d, rtol=1e-12)
+
+
+# --- curves as instruments write them ---
+
+BODY = 4e6  # Pa; BALL on it to 2 um
+WAY = np.linspace(-500.0, 2000.0, 500)  # nm
+RIGHT = 1e6 * float(BALL.contact_radius(1e-6))  # um
+
+
+def force_at(d):
+    """Of the ball, in nN at depths in nm."""
+    return 1e9 * np.asarray(BALL.force(1e-9 * np.asarray(d), BODY))
+
+
+def pressed(path, d, F, noise=0.1, head="Depth (nm)\tLoad (nN)", **given):
+    """Contact radius [um] at 1 um of a file of depths [nm] and forces [nN], and what was told of its lines."""
+    F = F + np.random.default_rng(3).normal(0, noise, np.size(F))
+    np.savetxt(path, np.column_stack([d, F]), delimiter="\t", header=head, comments="", fmt="%.5f")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        shape = mdr.FromForce.read(path, E_star=BODY, tip="round", smoothing=2e-9, **given)
+    said = [str(one.message).rpartition("data.csv: ")[2] for one in told]
+    return 1e6 * shape.contact_radius(1e-6), [one for one in said if "as found" not in one]
+
+
+LIFT = np.linspace(-400.0, -500.0, 50)
+CREEP = 2000 + 30 * np.log1p(np.arange(100.0)) / np.log(100)
+CURVES = {
+    "a hold that creeps up": ([WAY, CREEP], [force_at(WAY), np.full(100, force_at(2000))], ["502 to 601"]),
+    "one that drifts, then back": (
+        [WAY, np.linspace(2000, 2020, 101)[1:], WAY[::-1]], None, ["502 to 600"]),
+    "one that sinks, then back": ([WAY, np.linspace(2000, 1980, 100), np.linspace(1980, -500, 500)], None, []),
+    "forces that relax": ([WAY, np.full(100, 2000.0)],
+                          [force_at(WAY), force_at(2000) * np.linspace(0.99, 0.6, 100)], ["502 to 601"]),
+    "a lift-off before": ([LIFT, WAY], None, ["2 to 50"]),
+    "a lift-off before, and one after": (
+        [LIFT, WAY, WAY[::-1], np.linspace(-500, -380, 60)], None, ["2 to 50", "1052 to 1111"]),
+    "a way as a cosine": ([750 - 1250 * np.cos(np.linspace(0, np.pi, 500)), np.full(200, 2000.0)], None, [" to 701"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("d", "F", "lines"), CURVES.values(), ids=CURVES)
+def test_what_is_no_part_of_the_approach_is_left_out_and_told(tmp_path, d, F, lines):
+    """To 1e-3: forces are known to 2 nN of some 1e4."""
+    F = force_at(np.concatenate(d)) if F is None else np.concatenate(F)
+    radius, said = pressed(tmp_path / "data.csv", np.concatenate(d), F)
+    assert_allclose(radius, RIGHT, rtol=1e-3)
+    assert len(said) == bool(lines)
+    assert all(one in said[0] for one in lines)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("noise", [0.3, 3.0, 10.0])
+def test_noise_of_the_depth_is_no_noise_of_the_force(tmp_path, noise, seed):
+    """A reading of the depth that is noisy, and a tip that truly shakes: forces follow the second.
+
+    The rate of a line through 500 depths over 2500 nm is known to noise sqrt(12/500)/2500, here to three times that.
+    """
+    shaken = WAY + np.random.default_rng(seed).normal(0, noise, WAY.size)
+    for d, F in ((shaken, force_at(WAY)), (shaken, force_at(shaken)), (WAY, force_at(WAY))):
+        assert_allclose(pressed(tmp_path / "data.csv", d, F)[0], RIGHT, rtol=1e-3 + 1.9e-4 * noise)
+    hold = 2000 + np.random.default_rng(seed).normal(0, noise, 100)
+    loop = np.concatenate([LIFT, shaken, hold, shaken[::-1]])
+    F = force_at(np.concatenate([LIFT, WAY, np.full(100, 2000.0), WAY[::-1]]))
+    for part in ("approach", "retract"):
+        assert_allclose(pressed(tmp_path / "data.csv", loop, F, part=part)[0], RIGHT, rtol=1e-3 + 1.9e-4 * noise)
+
+
+def test_of_several_loops_one_is_chosen(tmp_path):
+    back = WAY[:100:-1]
+    d = np.concatenate([WAY, back, WAY[101:], WAY[::-1]])
+    F = force_at(d)
+    said = (
+        r'2 parts of the curve are approach: choose part="approach 1" of lines 2 to 501, part="approach 2" of lines 900'
+    )
+    for part in ("approach", "approach 3"):
+        with pytest.raises(ValueError, match=said):
+            pressed(tmp_path / "data.csv", d, F, part=part)
+    for part in ("approach 1", "approach 2", "retract 1", "retract 2"):
+        assert_allclose(pressed(tmp_path / "data.csv", d, F, part=part, touch=0.0)[0], RIGHT, rtol=1e-3)
+
+
+def test_the_height_of_a_piezo_is_no_depth(tmp_path):
+    """A cantilever bends by F/k: its name is asked about, and its stiffness brings the depth; a height may point up."""
+    path, k, F = tmp_path / "data.csv", 20.0, 8 + force_at(WAY)  # N/m
+    height = WAY + F / k
+    for name in ("Height", "Piezo", "Z", "Displacement"):
+        head = f"{name} (nm)\tLoad (nN)"
+        with pytest.raises(ValueError, match=f"{name}.* may be d, or another quantity.*spring_constant="):
+            pressed(path, height, F, head=head)
+        for z, given in ((height, {}), (5000 - height, {}), (5000 - height, {"touch": 5e-6 - 8e-9 / k})):
+            radius, said = pressed(path, z, F, head=head, spring_constant=k, **given)
+            assert_allclose(radius, RIGHT, rtol=1e-3)
+            assert any("d is turned" in one for one in said) == (z is not height)
+    with pytest.raises(ValueError, match="of a depth, leave spring_constant out"):
+        pressed(path, WAY, F, spring_constant=k)
+    with pytest.raises(ValueError, match="spring_constant must be positive"):
+        pressed(path, height, F, head="Height (nm)\tLoad (nN)", spring_constant=0.0)
