@@ -23,8 +23,8 @@ from mdr.tools.checks import finite_array, instants, positive
 from mdr.tools.progress import Ticker
 from mdr.tools.warned import warn_outside
 
-#: what a record may be of, by how often it is integrated to a displacement: symbol, unit
-KINDS = (("u", "m"), ("v", "m/s"), ("a", "m/s²"))
+#: symbol and unit of a displacement and its derivatives
+DERIVATIVES = (("u", "m"), ("v", "m/s"), ("a", "m/s²"))
 LEAST_PERIODS = 2.9  #: in a record: three, but for what their number is uncertain by
 MOST = 100  #: harmonics that are looked at
 BINS = 2**12  #: of a period, about whose middles sums of samples are Taylor series
@@ -71,13 +71,14 @@ class _Fit(NamedTuple):
     noise: Array  #: (n_orders,) |A|² that white noise passes at one frequency in n_t with the probability 1e-4
 
 
-def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None, kind: int = 2) -> tuple[float, Complex]:
+def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None, order: int = 2) -> tuple[float, Complex]:
     """Angular frequency [rad/s] of a periodic record, and its harmonics (N,) of the orders 1 to N, with t from zero.
 
-    kind: a place in `KINDS`. A harmonic is zero where noise hides it. Warns where much of the record is left out.
+    order: of the derivative of a displacement that was recorded. A harmonic is zero where noise hides it. Warns where
+    much of the record is left out.
     """
-    name, unit = KINDS[kind]
-    t, a = sampled(t, a, kind)
+    name, unit = DERIVATIVES[order]
+    t, a = sampled(t, a, order)
     span = (t[-1] - t[0]) * t.size / (t.size - 1)
     record = _Record(name, unit, t - t.mean(), a - a.mean(), span, Ticker(f"frequency of {name}", parts="passes"))
     if frequency is None:
@@ -93,9 +94,9 @@ def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None, kind: int = 2
     return omega, A * np.exp(-1j * np.arange(1, A.size + 1) * omega * t.mean())
 
 
-def sampled(t: ArrayLike, a: ArrayLike, kind: int = 2) -> tuple[Array, Array]:
+def sampled(t: ArrayLike, a: ArrayLike, order: int = 2) -> tuple[Array, Array]:
     """Instants [s] that rise, and what was recorded at each."""
-    name, unit = KINDS[kind]
+    name, unit = DERIVATIVES[order]
     t, a = instants("t", t), finite_array(name, a, unit)
     if a.shape != t.shape:
         raise ValueError(f"{name} must have the shape {t.shape} of t, got {a.shape}")

@@ -1,11 +1,11 @@
-"""Displacement from a recorded acceleration that need not be periodic: integrated twice, above a high-pass."""
+"""Displacement from a recorded acceleration or velocity that need not be periodic: integrated above a high-pass."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.case.acceleration import sampled
+from mdr.case.acceleration import DERIVATIVES, sampled
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import positive
 from mdr.tools.warned import warn_outside
@@ -13,20 +13,23 @@ from mdr.tools.warned import warn_outside
 ORDER = 4  #: of the Butterworth filter
 
 
-def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
-    """Displacement [m] of a recorded acceleration, of frequencies above a high-pass.
+def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float, order: int = 2) -> Array:
+    """Displacement [m] of a recorded acceleration or velocity, of frequencies above a high-pass.
 
-    Of a record that need not be periodic. Slower motion cannot be told from the drift of an accelerometer. Of a
-    periodic one `PeriodicMotion.from_acceleration` knows more.
+    Of a record that need not be periodic. Slower motion cannot be told from the drift of a sensor. Of a periodic one
+    `PeriodicMotion.from_acceleration` and `from_velocity` know more.
 
     Parameters
     ----------
     t : array_like of float, shape (n_t,)
         Instants [s], rising in equal steps.
     a : array_like of float, shape (n_t,)
-        Acceleration [m/s²].
+        Acceleration [m/s²], or what `order` says.
     high_pass : float
         Frequency [Hz] at which the filter halves the displacement.
+    order : int
+        How often it is integrated: 2, an acceleration; 1, a velocity [m/s]; 0, a displacement [m], that is filtered
+        alone.
 
     Returns
     -------
@@ -61,12 +64,16 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     >>> print(f"{np.ptp(mdr.displacement_of(t, a, high_pass=10)[1000:3000]):.3g} m")
     4e-06 m
     """
-    t, a = sampled(t, a)
+    if order not in (0, 1, 2):
+        raise ValueError(f"order must be 2 of an acceleration, 1 of a velocity or 0 of a displacement, got {order!r}")
+    t, a = sampled(t, a, order)
+    name = DERIVATIVES[order][0]
     high_pass, step = positive("high_pass", high_pass, "in Hz"), (t[-1] - t[0]) / (t.size - 1)
     off = np.abs(t - t[0] - step * np.arange(t.size)) / step
     if off.max() > 0.1:  # instants may be off a grid by this share of a step
         raise ValueError(
-            f"t must rise in equal steps, but sample {np.argmax(off)} is off by {off.max():.2g} steps: interpolate a"
+            f"t must rise in equal steps, but sample {np.argmax(off)} is off by {off.max():.2g} steps: interpolate "
+            f"{name}"
         )
     low, high = 1 / (step * t.size), 0.5 / step
     if not low <= high_pass < high:
@@ -77,14 +84,14 @@ def displacement_of(t: ArrayLike, a: ArrayLike, *, high_pass: float) -> Array:
     # after 8/high_pass the response of the filter is below 1e-8
     n = t.size + int(8.0 / (high_pass * step)) + 1
     x = np.fft.rfftfreq(n, step) / high_pass
-    gain = -(x ** (2 * ORDER - 2)) / (1 + x ** (2 * ORDER)) / (2 * np.pi * high_pass) ** 2
+    gain = x ** (2 * ORDER - order) / (1 + x ** (2 * ORDER)) / (2j * np.pi * high_pass) ** order
     spectrum = np.fft.rfft(a - a.mean(), n)
     # a Hann window, which leaves 3/8 of a steady power, and the straight line take drift off; slower still is drift
     line, below = np.polynomial.Polynomial.fit(t, a, 1), (x > 0.1) & (x < 1)
     power = 8 / 3 * np.abs(np.fft.rfft((a - line(t)) * np.hanning(t.size), n)) ** 2
     if power[below].sum() > np.sum(np.abs(spectrum[x >= 1]) ** 2):
         loudest = x[below][np.argmax(power[below])] * high_pass
-        warn_outside(f"most of a lies below the high-pass, at {loudest:.4g} Hz, and is left out: lower high_pass")
+        warn_outside(f"most of {name} lies below the high-pass, at {loudest:.4g} Hz, and is left out: lower high_pass")
     u = np.fft.irfft(gain * spectrum, n)[: t.size]
     outside = _from_outside(2 * np.pi * high_pass * step * np.arange(t.size))
     return np.asarray(u - outside @ np.linalg.lstsq(outside, u, rcond=None)[0])

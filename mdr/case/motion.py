@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.acceleration import series_of
+from mdr.case.acceleration import DERIVATIVES, series_of
 from mdr.case.depth_cycle import Cycle
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
@@ -304,7 +304,7 @@ class PeriodicMotion(Motion):
         Notes
         -----
         Least squares at the instants of the record. Of the first 100 harmonics those are kept that white noise alone
-        would hardly reach (1 in 1000 records); each is divided by -(n omega)². The frequency is the one that fits
+        would hardly reach (1 in 1000 records); each is divided by (i n omega)². The frequency is the one that fits
         best. What was left out is ``a - motion.u_z_ddot(t)``, with the mean of a.
 
         Examples
@@ -318,10 +318,74 @@ class PeriodicMotion(Motion):
         >>> print(f"{motion.omega / (2 * np.pi):.2f} Hz, {len(motion.cos)} harmonics, {motion.cos[0]:.2e} m")
         80.30 Hz, 3 harmonics, 1.96e-06 m
         """
-        omega, A = series_of(t, a, frequency)
-        swing = -A / (np.arange(1, A.size + 1) * omega) ** 2
-        motion = cls(omega, u_z0, tuple(swing.real), tuple(-swing.imag))
-        return motion._not_wide("is a in m/s², and t in s?")
+        return cls._recorded(2, t, a, u_z0, frequency)
+
+    @classmethod
+    def from_velocity(
+        cls, t: ArrayLike, v: ArrayLike, *, u_z0: float, frequency: float | None = None
+    ) -> PeriodicMotion:
+        """The Fourier series [m] of a recorded velocity of many periods, as of a vibrometer.
+
+        Parameters
+        ----------
+        t : array_like of float, shape (n_t,)
+            Instants [s].
+        v : array_like of float, shape (n_t,)
+            Velocity [m/s], positive into the half-space.
+        u_z0 : float
+            Mean depth [m], which a velocity does not tell.
+        frequency : float, optional
+            Fundamental [Hz], if it is known exactly.
+
+        Returns
+        -------
+        PeriodicMotion
+            The motion, on the time of the record.
+
+        See Also
+        --------
+        from_acceleration : the same of an acceleration, with what is refused and told.
+        """
+        return cls._recorded(1, t, v, u_z0, frequency)
+
+    @classmethod
+    def from_displacement(
+        cls, t: ArrayLike, u: ArrayLike, *, u_z0: float, frequency: float | None = None
+    ) -> PeriodicMotion:
+        """The Fourier series [m] of a recorded displacement of many periods.
+
+        Parameters
+        ----------
+        t : array_like of float, shape (n_t,)
+            Instants [s].
+        u : array_like of float, shape (n_t,)
+            Displacement [m], positive into the half-space.
+        u_z0 : float
+            Mean depth [m]: that of the displacement counts from a zero of its sensor.
+        frequency : float, optional
+            Fundamental [Hz], if it is known exactly.
+
+        Returns
+        -------
+        PeriodicMotion
+            The motion, on the time of the record.
+
+        See Also
+        --------
+        from_acceleration : the same of an acceleration, with what is refused and told.
+        of : depths at equidistant instants of one period.
+        """
+        return cls._recorded(0, t, u, u_z0, frequency)
+
+    @classmethod
+    def _recorded(
+        cls, order: int, t: ArrayLike, values: ArrayLike, u_z0: float, frequency: float | None
+    ) -> PeriodicMotion:
+        """Of the derivative of this order of the displacement: each harmonic over (i n omega)^order."""
+        omega, A = series_of(t, values, frequency, order)
+        swing = A / (1j * np.arange(1, A.size + 1) * omega) ** order
+        name, unit = DERIVATIVES[order]
+        return cls(omega, u_z0, tuple(swing.real), tuple(-swing.imag))._not_wide(f"is {name} in {unit}, and t in s?")
 
     def with_amplitude(self, du_z: float) -> PeriodicMotion:
         """The same waveform, larger or smaller.

@@ -7,6 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
+from mdr.case import acceleration
+from mdr.case.depth_cycle import harmonic_sum
+from mdr.tools.progress import Ticker
 
 U_Z0 = 20e-6
 SERIES = {
@@ -44,6 +47,54 @@ def test_a_series_without_noise_comes_back(U, seed, given):
     assert_allclose(found.omega, 2 * np.pi * f, rtol=1e-12)
     assert len(found.cos) == len(U)
     assert_allclose(found.u_z(t), truth(f, U).u_z(t), rtol=0, atol=1e-9 * np.abs(U).max())
+
+
+@pytest.mark.parametrize("U", [SERIES["sine"], SERIES["fundamental missing"]])
+def test_displacement_and_velocity_tell_the_same_motion(U):
+    """Each derivative of a known motion, with an offset."""
+    f, t, noise = 37.13, instants(4000, 1.1e-4, 3), np.random.default_rng(1).normal(size=4000)
+    given, p = truth(f, U), mdr.PeriodicMotion
+    for read, values in ((p.from_displacement, given.u_z(t)), (p.from_velocity, given.u_z_dot(t)),
+                         (p.from_acceleration, given.u_z_ddot(t))):  # fmt: skip
+        found = read(t, values + 3 * values.std(), u_z0=U_Z0)
+        assert_allclose(found.u_z(t), given.u_z(t), rtol=0, atol=1e-9 * np.abs(U).max())
+        noisy = read(t, values + 1e-3 * values.std() * noise, u_z0=U_Z0, frequency=f)
+        assert_allclose(noisy.u_z(t), given.u_z(t), rtol=0, atol=1e-2 * np.abs(U).max())
+    with pytest.raises(ValueError, match="v: nothing periodic stands out"):
+        p.from_velocity(t, noise, u_z0=1.0)
+    with pytest.raises(ValueError, match=r"u must have the shape \(4000,\) of t"):
+        p.from_displacement(t, noise[1:], u_z0=1.0)
+    with pytest.warns(mdr.PlausibilityWarning, match=r"is v in m/s, and t in s\?"):
+        p.from_velocity(t, 1e5 * given.u_z_dot(t), u_z0=U_Z0)
+
+
+@pytest.mark.parametrize("n", [1, 40])
+def test_sums_over_bins_are_those_over_samples(n):
+    """Uneven samples, in more than one part; to the rounding of the phase, 1e-16 of some 1e4 periods."""
+    rng, top = np.random.default_rng(n), 3 * n
+    t = np.sort(rng.uniform(-20.0, 20.0, 2**15 + 700))
+    a, x, omega = rng.normal(size=t.size), t / 40, 2 * np.pi * 123.4
+    record = acceleration._Record("a", "m/s²", t, a, 40.0, Ticker("a"))
+    sums, m = acceleration._sums(record, omega, top), np.arange(2 * top + 1)
+    turn = np.exp(1j * np.multiply.outer(m, np.mod(omega * t, 2 * np.pi)))
+    assert_allclose(sums.own, [turn.sum(1), turn @ x, turn @ x**2], rtol=0, atol=1e-10 * t.size)
+    assert_allclose(sums.seen, np.conj([turn @ a, turn @ (a * x)])[:, : top + 1], rtol=0, atol=1e-10 * t.size)
+    A = rng.normal(size=top) + 1j * rng.normal(size=top)
+    assert_allclose(acceleration._at_samples(A, omega * t), harmonic_sum(A, omega * t), rtol=0, atol=1e-9 * top)
+
+
+def test_a_long_record_takes_a_time_that_grows_as_its_samples():
+    """Passes over the samples, which are all that grows; and many samples are as well known as few."""
+    passes = []
+    for n in (2_000, 20_000, 200_000):
+        t = np.arange(n) / 5e5
+        a = truth(1000.3, [1e-7, 0, 3e-9]).u_z_ddot(t) + np.random.default_rng(0).normal(0, 0.05, n)
+        record = acceleration._Record("a", "m/s²", t - t.mean(), a - a.mean(), n / 5e5, Ticker("a"))
+        omega = acceleration._fundamental(record)
+        passes.append(record.passes.done)
+        bound = np.sqrt(24 / n) * 0.05 / (1e-7 * (2 * np.pi * 1000.3) ** 2) / (2 * np.pi * n / 5e5)  # Cramér-Rao
+        assert abs(omega / (2 * np.pi) - 1000.3) < 4 * bound
+    assert max(passes) < 2 * min(passes) < 60
 
 
 @pytest.mark.parametrize("seed", range(3))

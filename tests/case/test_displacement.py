@@ -28,6 +28,18 @@ def test_a_burst_is_integrated():
         assert off < 2 * (high_pass / 100) ** 8 + 1e-9
 
 
+def test_a_velocity_is_integrated_once_and_a_displacement_is_filtered():
+    t = np.arange(4001) * 5e-4
+    u, _ = burst(t)
+    phase = 2e-6 * np.exp(-(((t - 1) / 0.05) ** 2) / 2 + 2j * np.pi * 100 * (t - 1))
+    v = (phase * (2j * np.pi * 100 - (t - 1) / 0.05**2)).real
+    for order, values in ((1, v + 0.1), (0, u + 1e-3)):
+        found = mdr.displacement_of(t, values, high_pass=10.0, order=order)
+        assert_allclose(found, u, rtol=0, atol=2e-6 * (2 * (10 / 100) ** 8 + 1e-9))
+    with pytest.raises(ValueError, match="order must be 2 of an acceleration, 1 of a velocity"):
+        mdr.displacement_of(t, v, high_pass=10.0, order=3)
+
+
 def test_a_vibration_below_the_high_pass_is_told():
     t = np.arange(4001) * 5e-4
     tone = np.sin(2 * np.pi * 80 * t)
