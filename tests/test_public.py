@@ -57,7 +57,7 @@ SIGNATURES = {
     "PeriodicMotion.from_velocity": "t, v, *, u_z0, frequency=None",
     "PeriodicMotion.from_displacement": "t, u, *, u_z0, frequency=None",
     "displacement_of": "t, a, *, high_pass, order=2",
-    "read_record": "path, *, units=None, columns=None, skip=None, rate=None",
+    "read_record": "path, *, units=None, columns=None, skip=None, table=None, rate=None, sensitivity=None",
     "LoadOscillation": "F_z0, dF_z, omega, m_z=0.0",
     "ConstantDepth": "u_z0",
     "ConstantLoad": "F_z0",

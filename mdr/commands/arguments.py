@@ -83,12 +83,17 @@ def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> N
     if of_time:
         rate, what = plain_number("Hz", "a frequency such as 1kHz"), "samples a second, in the place of a column t"
         command.add_argument("--rate", metavar="1kHz", type=rate, help=what)
+        volts = "of a sensor whose voltage was recorded: 100mV/g, 125mm/s/V; or of each, a_x=99mV/g a_z=101mV/g"
+        command.add_argument("--sensitivity", metavar="100mV/g", nargs="+", help=volts)
 
 
 def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
     """What a reader of the library makes of a CSV file; what it says names options in the place of its arguments."""
     given = {"columns": dict(args.columns), "units": dict(args.units), "skip": args.skip}
-    given |= {"rate": args.rate} if hasattr(args, "rate") else {}
+    if hasattr(args, "rate"):
+        of = args.sensitivity
+        each = dict(one.split("=", 1) for one in of or () if "=" in one)
+        given |= {"rate": args.rate, "sensitivity": each or (of and " ".join(of))}
     try:
         with warnings.catch_warnings(record=True) as told:
             return read(path, **given)

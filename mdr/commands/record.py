@@ -20,13 +20,15 @@ from mdr.tools.checks import positive
 
 def add_options_of_record(command: argparse.ArgumentParser) -> None:
     """The motion, and where to write."""
-    what = "columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, a_y, a_z"
+    what = "columns t [s], u_x [um], u_y [um] if known, and u_z [um] or F_z [N]; or a_x, v_x and so on"
     command.add_argument("motion", metavar="motion.csv", type=path_of, help=f"motion of the indenter: {what}")
     case = "the case file: shape, material, mu_0 and mean depth count, and no [pull]; - is standard input"
     command.add_argument("case", metavar="case.toml", type=path_of, help=case)
     command.usage = "%(prog)s motion.csv case.toml [options]"
     frequency = plain_number("Hz", "a frequency such as 5Hz", partial(positive, ""))
-    above = "integrate a_x, a_y, a_z [m/s²] above this frequency; a_z is about the mean depth of the case; one of its"
+    above = (
+        "integrate a_x, v_x and so on above this frequency; a_z, v_z are about the mean depth of the case; one of its"
+    )
     above += " periods at either end of the record is uncertain and left out"
     command.add_argument("--high-pass", metavar="5Hz", type=frequency, help=above)
     pulled = "velocity of a steady pull along x: 10mm/s, 0.5v_c; added to what a_x tells, in the place of u_x"
@@ -64,25 +66,29 @@ def record(args: argparse.Namespace, _: None) -> int:
 def with_displacements(
     record: dict[str, Array], high_pass: float | None, case: mdr.SlidingContact, v_0: float | None
 ) -> dict[str, Any]:
-    """The record with positions and depths [m] in the place of accelerations [m/s²], without the ends of these, and
-    with the way of a steady pull at v_0 [m/s].
+    """The record with positions and depths [m] in the place of accelerations and velocities, without the ends of
+    these, and with the way of a steady pull at v_0 [m/s].
     """
     motion = {**record}
     if v_0 is not None and "u_x" in motion:
         raise ValueError("the header names u_x, which is the whole way along the pull: leave --v-0 out")
-    for axis in "xyz":
-        a, u = f"a_{axis}", f"u_{axis}"
-        if a not in motion:
-            continue
+    for name in [one for one in record if one[0] in "av"]:
+        axis = name[-1]
+        u = f"u_{axis}"
         if high_pass is None:
-            raise ValueError(f"{a} is an acceleration: give the frequency above which it counts, --high-pass 5Hz")
-        if u in motion or (axis == "z" and "F_z" in motion):
-            raise ValueError(f"the header names {a} and {u if u in motion else 'F_z'}: leave one out")
-        motion[u] = mdr.displacement_of(motion["t"], motion.pop(a), high_pass=high_pass)
+            what = "an acceleration" if name[0] == "a" else "a velocity"
+            raise ValueError(f"{name} is {what}: give the frequency above which it counts, --high-pass 5Hz")
+        others = (u, "F_z") if axis == "z" else (u,)
+        if other := next((one for one in (*others, f"v_{axis}") if one in record and one != name), None):
+            raise ValueError(f"the header names {name} and {other}: leave one out")
+        order = 2 if name[0] == "a" else 1
+        motion[u] = mdr.displacement_of(motion["t"], motion.pop(name), high_pass=high_pass, order=order)
         if axis == "z":
             motion[u] += mdr.resolved(case).working_depth
     if not motion.keys() & {"u_z", "F_z"}:
-        raise ValueError("the header names no depth: one of a_z [m/s2], u_z [um] or F_z [N] tells how it is pressed")
+        raise ValueError(
+            "the header names no depth: one of a_z [m/s2], v_z [mm/s], u_z [um] or F_z [N] tells how it is pressed"
+        )
     if v_0 is not None:
         motion["u_x"] = motion.get("u_x", 0.0) + v_0 * (motion["t"] - motion["t"][0])
     if "u_x" not in motion:
@@ -90,7 +96,7 @@ def with_displacements(
             "the header names no u_x, which no accelerometer shows; give the velocity of the pull, --v-0 10mm/s, or "
             "write t [s], u_x [um], u_z [um] or a_z [g]"
         )
-    if not any(name.startswith("a_") for name in record):
+    if not any(name[0] in "av" for name in record):
         return motion
     inner = inner_part(motion["t"], positive("high_pass", high_pass))
     return {name: values[inner] for name, values in motion.items()}

@@ -17,6 +17,7 @@ from mdr.tools.notation import value_in
 OPTIONS: dict[str, tuple[str | None, str | None, str]] = {
     "smoothing": ("m", "N", "standard deviation of the noise of the heights, 14nm, or of the forces, 2uN"),
     "tip": ("", "", "of heights round or sharp, of forces any, round, sharp or flat"),
+    "pitch": ("m", None, "step from height to height of one column, in the place of r: 2um"),
     "apex": ("m", None, "place of the tip in the scan (default: 0)"),
     "side": ("", None, "of the tip: both, left or right"),
     "kinks": ("m", None, "radii of edges"),
@@ -118,7 +119,7 @@ def material(args: argparse.Namespace, _: None) -> int:
 
 def add_options_of_motion(command: argparse.ArgumentParser) -> None:
     """The record, the depth that it does not tell, and its frequency."""
-    record = "what an accelerometer recorded over three periods or more: columns t [s], a_z [g]; - is standard input"
+    record = "what a sensor recorded over three periods or more: columns t [s] and a_z [g], v_z [mm/s] or u_z [um]"
     command.add_argument("measured", metavar="shaker.csv", type=path_of, help=record)
     command.usage = "%(prog)s shaker.csv --u-z0 depth [options] > table.toml"
     depth = plain_number("m", "a depth such as 20um")
@@ -127,21 +128,28 @@ def add_options_of_motion(command: argparse.ArgumentParser) -> None:
     command.add_argument("--frequency", metavar="80Hz", type=known, help="fundamental (default: it is found)")
     add_reading(command, of_time=True)
     command.epilog = 'The table [oscillation] goes into a case file, where load = "5 N" may stand in the place of u_z0.'
-    command.epilog += " Positive a_z points into the half-space."
+    command.epilog += " Positive a_z, v_z and u_z point into the half-space."
 
 
 def motion(args: argparse.Namespace, _: None) -> int:
     """Print the table [oscillation] of the recorded motion."""
+    made = mdr.PeriodicMotion
     with refusals():
         record = read_file(mdr.read_record, args.measured, args)
-        if "a_z" not in record:
-            raise WrongInput(f"{args.measured}: the header names no a_z, the acceleration into the half-space")
-        t, a_z = record["t"], record["a_z"]
-        found = mdr.PeriodicMotion.from_acceleration(t, a_z, u_z0=args.u_z0, frequency=args.frequency)
-    rest = float((a_z - a_z.mean() - found.u_z_ddot(t)).std() / a_z.std())
+        of = {"a_z": made.from_acceleration, "v_z": made.from_velocity, "u_z": made.from_displacement}
+        names = [name for name in of if name in record]
+        if len(names) != 1:
+            what = f"both {' and '.join(names)}: leave one out" if names else f"none of {', '.join(of)}"
+            raise WrongInput(f"{args.measured}: the header names {what}, which tell the motion into the half-space")
+        (name,) = names
+        found = of[name](record["t"], record[name], u_z0=args.u_z0, frequency=args.frequency)
+    told = (found.u_z, found.u_z_dot, found.u_z_ddot)["uva".index(name[0])](record["t"])
+    rest = float((record[name] - told).std() / record[name].std())
     values = {"omega": found.omega, "du_z": found.cycle.du_z, "u_z0": args.u_z0, "cos": found.cos, "sin": found.sin}
     head = f"{found.omega / (2 * math.pi):.6g} Hz, {len(found.cos)} harmonics, amplitude {found.cycle.du_z:.6g} m; "
-    return _table(args, "oscillation", found, {**values, "left_out": rest}, f"{head}{rest:.2g} of a_z (rms) left out")
+    return _table(
+        args, "oscillation", found, {**values, "left_out": rest}, f"{head}{rest:.2g} of {name} (rms) left out"
+    )
 
 
 def _table(args: argparse.Namespace, name: str, record: Any, values: dict[str, Any], said: str) -> int:

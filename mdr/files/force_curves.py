@@ -44,8 +44,9 @@ HEIGHTS = (
     "piezo position", "z", "z position", "z piezo", "z sensor", "position", "travel",
 )  # fmt: skip
 OF_PIEZO = "if the height of a piezo, the stiffness of its cantilever too, spring_constant= in N/m"
-OF_DEPTH = "of a depth, leave spring_constant out"
-FORCE = Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6))
+DEPTH = Column("d", DEPTHS, "m", likely=(1e-12, 0.01), doubtful=HEIGHTS, asked=OF_PIEZO)
+HEIGHT = DEPTH._replace(names=HEIGHTS, doubtful=("d", *DEPTHS), asked="of a depth, leave spring_constant out")
+FORCE = (DEPTH, Column("F", ("F_N", "F_z", "force", "normal force", "load"), "N", lone=True, likely=(0.0, 1e6)))
 
 
 class ForceCurve(NamedTuple):
@@ -65,6 +66,7 @@ def read_force_curve(
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
+    table: int | str | None = None,
     part: str = "approach",
     touch: float | None = None,
     baseline: float | None = None,
@@ -75,7 +77,7 @@ def read_force_curve(
 
     Parameters
     ----------
-    path, units, columns, skip, part, touch, baseline, tip, spring_constant
+    path, units, columns, skip, table, part, touch, baseline, tip, spring_constant
         As in `FromForce.read`.
 
     Returns
@@ -103,23 +105,19 @@ def read_force_curve(
     power = TIPS[tip_of("tip", tip)]
     touch = None if touch is None else finite("touch", touch, "reading of d in m")
     baseline = None if baseline is None else finite("baseline", baseline, "force before the touch in N")
-    is_depth = spring_constant is None
-    names, doubtful = (DEPTHS, HEIGHTS) if is_depth else (HEIGHTS, ("d", *DEPTHS))
-    asked = OF_PIEZO if is_depth else OF_DEPTH
-    depth = Column("d", names, "m", likely=(1e-12, 0.01), doubtful=doubtful, asked=asked)
-    table = read_table(path, (depth, FORCE), Reading(units, columns, skip))
-    sign = _inwards(table)
-    z, F = sign * table.values["d"], table.values["F"]
-    rows = _one_way(table, z, F, part)
+    give = 0.0 if spring_constant is None else 1 / positive("spring_constant", spring_constant, "in N/m")
+    measured = read_table(path, (HEIGHT if give else DEPTH, FORCE[1]), Reading(units, columns, skip, table))
+    sign = _inwards(measured)
+    z, F = sign * measured.values["d"], measured.values["F"]
+    rows = _one_way(measured, z, F, part)
     z, F = z[rows], F[rows]
     touch = None if touch is None else sign * touch
     if touch is not None and baseline is None and np.any(z < touch):
         baseline = float(F[z < touch].mean())
-        warn_outside(f"{table.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
-    give = 0.0 if is_depth else 1 / positive("spring_constant", spring_constant, "in N/m")
+        warn_outside(f"{measured.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
     d, F = _in_order(z - give * (F - (baseline or 0.0)), F)
     if d.size > 2 * TOLD_FROM and np.sum(np.diff(F) ** 2) > np.sum((F - F.mean()) ** 2):  # of noise alone it is twice
-        raise table.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
+        raise measured.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
     # the point (0, 0) is added to a depth that is at most three of the widest steps away
     are_depths = d.size < 2 or 0 <= d[0] <= 3.0 * float(np.diff(d).max())
     found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST else None
@@ -127,14 +125,14 @@ def read_force_curve(
         unbent = give * found[1] if baseline is None else 0.0  # of a cantilever, by what was not taken off yet
         touch, baseline, d = found[0] + unbent, found[1] if baseline is None else baseline, d + unbent
         taken = f"touch={sign * touch:.6g} m and baseline={baseline:.4g} N are taken, as found"
-        warn_outside(f"{table.source}: {taken}{'' if power else _of_other_tips(d, F)}")
+        warn_outside(f"{measured.source}: {taken}{'' if power else _of_other_tips(d, F)}")
     baseline = baseline or 0.0
     if touch is not None:
-        _doubt(table, F - baseline, d, touch)
+        _doubt(measured, F - baseline, d, touch)
     elif not are_depths:
         where = "above the surface" if d[0] < 0 else "far from 0"
-        raise table.fault(f"the first d is {d[0]:.6g} m, {where}; give the depth of the first touch as touch=")
-    return ForceCurve(d, F, touch, baseline, *_from_the_touch(table, d, F - baseline, touch))
+        raise measured.fault(f"the first d is {d[0]:.6g} m, {where}; give the depth of the first touch as touch=")
+    return ForceCurve(d, F, touch, baseline, *_from_the_touch(measured, d, F - baseline, touch))
 
 
 def _from_the_touch(table: Table, d: Array, F: Array, touch: float | None) -> tuple[Array, Array]:

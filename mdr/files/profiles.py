@@ -7,23 +7,33 @@ from os import PathLike
 import numpy as np
 
 from mdr.files.measurements import read_table
+from mdr.files.recorded_motion import counted
 from mdr.tools.arrays import EPS, Array
+from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Reading, Table
 
 PROFILE = (
-    Column("r", ("x", "radius", "position", "distance", "lateral", "X position", "length"), "m", likely=(1e-10, 1.0)),
+    Column(
+        "r",
+        ("x", "radius", "position", "distance", "lateral", "X position", "length"),
+        "m",
+        likely=(1e-10, 1.0),
+        instead="pitch=, in m, for even steps",
+    ),
     Column("f", ("h", "z", "height", "profile", "total profile", "raw height"), "m", likely=(0.0, 1.0)),
 )
 
 
 def profile_points(
-    path: str | PathLike[str], reading: Reading, apex: float, side: str, flip: bool
+    path: str | PathLike[str], reading: Reading, apex: float, side: str, flip: bool, pitch: float | None
 ) -> tuple[Array, Array]:
     """Radii from 0 and heights [m] of one side of a scan across the tip, or of both laid upon one another."""
     if side not in ("both", "left", "right"):
         raise ValueError(f'side must be "both", "left" or "right", got {side!r}')
-    table = read_table(path, PROFILE, reading)
+    table = read_table(path, PROFILE[pitch is not None :], reading)
+    if pitch is not None:
+        table.values["r"] = counted(table, PROFILE[0], reading, positive("pitch", pitch, "in m"), "pitch")
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
     tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
     _refuse_repeated(table, x, tiny)

@@ -1,4 +1,4 @@
-"""Recorded motion and acceleration over time in a CSV file."""
+"""Recorded motion, velocity and acceleration over time in a CSV file."""
 
 from __future__ import annotations
 
@@ -11,35 +11,50 @@ from typing import Any
 
 import numpy as np
 
+from mdr.files.force_curves import HEIGHTS
 from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
-from mdr.tools.notation import GRAVITY
+from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of, warn_of_size
+from mdr.tools.notation import GRAVITY, is_number, parted, scale_of, shown
 from mdr.tools.warned import warn_outside
 
 FASTEST = (0.0, 1e7)  #: acceleration [m/s²], of 100 µm at 50 kHz
+FAST = (0.0, 1e3)  #: velocity [m/s]
 UNEVEN = 0.1  #: share of a step that times may be off even ones
 TIME = Column("t", ("time", "elapsed time", "timestamp"), "s", lone=True, instead="rate=, in Hz, for even steps")
+WAYS = ("displacement", "disp", "position", "way", "u")  #: along the slide, or into the half-space
+
+
+def _along(axis: str, letter: str, unit: str, words: tuple[str, ...], **more: Any) -> Column:
+    """A component; its letter alone is a name too, which a unit tells from a position."""
+    names = [f"{word} {axis}" for word in words] + [f"{axis} {word}" for word in (*words, f"axis {words[0]}")]
+    return Column(f"{letter}_{axis}", (axis, f"{axis} axis", *names), unit, needed=False, **more)
 
 
 def _acceleration(axis: str, *names: str) -> Column:
-    """A component; its letter alone is a name too, which a unit tells from a position."""
-    words = [f"{word} {axis}" for word in ("acceleration", "linear acceleration", "accelerometer", "accel", "acc")]
-    words += [f"{axis} axis", f"{axis} acceleration", f"{axis} axis acceleration"]
-    return Column(f"a_{axis}", (axis, *words, *names), "m/s²", needed=False, lone=axis == "z", likely=FASTEST)
+    words = ("acceleration", "linear acceleration", "accelerometer", "accel", "acc")
+    found = _along(axis, "a", "m/s²", words, lone=axis == "z", likely=FASTEST)
+    return found._replace(names=(*found.names, *names))
+
+
+def _velocity(axis: str, *doubtful: str) -> Column:
+    return _along(axis, "v", "m/s", ("velocity", "vibration velocity"), likely=FAST, doubtful=doubtful)
 
 
 MOTION = (
     TIME,
-    Column("u_x", ("x",), "m", needed=False),
+    Column("u_x", ("x",), "m", needed=False, doubtful=(*WAYS, "stroke", "travel")),
     Column("u_y", ("y",), "m", needed=False),
-    Column("u_z", ("z", "u", "depth", "displacement"), "m", needed=False, likely=(0.0, 0.01)),
+    Column("u_z", ("depth", "indentation"), "m", needed=False, likely=(0.0, 0.01), doubtful=(*WAYS, *HEIGHTS)),
     Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
     _acceleration("x"),
     _acceleration("y"),
     _acceleration("z", "a", "acceleration", "accel", "acc"),
+    _velocity("x", "v", "velocity", "speed", "sliding velocity"),
+    _velocity("y"),
+    _velocity("z", "v", "velocity", "speed"),
 )
 
 
@@ -49,29 +64,35 @@ def read_record(
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
+    table: int | str | None = None,
     rate: float | None = None,
+    sensitivity: str | Mapping[str, str] | None = None,
 ) -> dict[str, Array]:
-    r"""A recorded motion or acceleration in SI, from a CSV file.
+    r"""A recorded motion, velocity or acceleration in SI, from a CSV file.
 
     Parameters
     ----------
     path : str or path-like
-        The file. Its header names the time t and at least one of u_x, u_y, u_z (or u, displacement), F_z, a_x, a_y,
-        a_z (or a, acceleration), with their units: `t [ms], a [g]`.
+        The file. Its header names the time t and at least one of u_x, u_y, u_z (or depth), F_z, v_x, v_y, v_z, a_x,
+        a_y, a_z (or a, acceleration), with their units: `t [ms], a [g]`.
     units : dict of str, optional
         Units of columns whose header has none, such as {"t": "s", "a_z": "m/s²"}.
     columns : dict of str or int, optional
         What the header calls a column, such as {"a_z": "Kanal 1"}, or its number, from 1.
     skip : int, optional
         Lines above the header. None finds it.
+    table : int or str, optional
+        Which table of a file with several, from 1, or words above it.
     rate : float, optional
         Samples a second [Hz], in the place of t: times are even, from 0.
+    sensitivity : str or dict of str, optional
+        Of a sensor whose voltage was recorded: "100 mV/g", "125 mm/s/V"; or of each, {"a_x": "99 mV/g", ...}.
 
     Returns
     -------
     dict of ndarray
         The columns that the file has, by the names above: times in s, positions and depths in m, forces in N,
-        accelerations in m/s². Depths and a_z are positive into the half-space.
+        velocities in m/s, accelerations in m/s². Depths, v_z and a_z are positive into the half-space.
 
     Raises
     ------
@@ -87,7 +108,8 @@ def read_record(
     See Also
     --------
     slide_record : takes t, u_x, u_y, u_z and F_z by these names.
-    displacement_of : integrates an acceleration.
+    displacement_of : integrates an acceleration or a velocity.
+    PeriodicMotion.from_acceleration, PeriodicMotion.from_velocity, PeriodicMotion.from_displacement : a motion.
 
     Examples
     --------
@@ -98,37 +120,73 @@ def read_record(
     >>> print(record["t"], record["a_z"])
     [0.     0.0005] [  9.80665 -19.6133 ]
     """
-    wanted = MOTION if rate is None else tuple(one for one in MOTION if one is not TIME)
-    step = None if rate is None else 1 / positive("rate", rate, "in Hz")
-    table = read_table(path, wanted, Reading(units, columns, skip))
-    record = table.values
+    per_volt = {} if sensitivity is None else _per_volt(sensitivity)
+    wanted = [one._replace(unit="V", likely=(0, math.inf)) if one.name in per_volt else one for one in MOTION]
+    reading = Reading(units, columns, skip, table)
+    found = read_table(path, wanted[rate is not None :], reading)
+    record = found.values
     if not record.keys() - {"t"}:
         what, example = "a time, and nothing else by a name known here", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
-        raise table.lacks(what, example, "a_x", "a_y", "a_z")
-    if step is not None:
-        _doubt_rate(table, Reading(_of_time(units), _of_time(columns), skip), step)
-        record = {"t": np.asarray(step * np.arange(len(table.lines))), **record}
+        raise found.lacks(what, example, *(one.name for one in MOTION))
+    for column in MOTION:
+        if column.name in per_volt and column.name in record:
+            record[column.name] *= per_volt[column.name]
+            warn_of_size(column.name, float(np.abs(record[column.name]).max()), column.likely, column.unit)
+    idle = sorted(per_volt.keys() - record.keys())
+    if idle and (not isinstance(sensitivity, str) or idle == sorted(per_volt)):
+        raise found.fault(f"sensitivity has no effect: the file has no {' and no '.join(idle)} in V")
+    if rate is not None:
+        record = {"t": counted(found, TIME, reading, 1 / positive("rate", rate, "in Hz"), "rate"), **record}
     elif np.any(falls := np.diff(record["t"]) < 0):
-        raise table.fault(f"t falls in line {table.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
-    record["t"] = _evened(record["t"], table.source)
+        raise found.fault(f"t falls in line {found.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
+    record["t"] = _evened(record["t"], found.source)
     _doubt_units(record)
     return record
 
 
-def _doubt_rate(table: Table, reading: Reading, step: float) -> None:
-    """Warn where a file has times of its own that go on by another step [s], by more than they are rounded."""
-    t = np.zeros(1)
+def _per_volt(sensitivity: str | Mapping[str, str]) -> dict[str, float]:
+    """What a volt means of each column that is measured by a sensor."""
+    if isinstance(sensitivity, str):
+        unit, value = _meaning(sensitivity)
+        return {one.name: value for one in MOTION if one.unit == unit}
+    found, units = {}, {one.name: one.unit for one in MOTION if one is not TIME}
+    for name, text in sensitivity.items():
+        unit, found[name] = _meaning(text)
+        if units.get(name) != unit:
+            raise ValueError(f"sensitivity: {name} is measured in {units.get(name, 'nothing here')}, got {text!r}")
+    return found
+
+
+def _meaning(text: str) -> tuple[str, float]:
+    """Unit and size of what a volt means, of a sensitivity as mV/g or mm/s/V."""
+    number, symbol = parted(text)
+    first, _, last = symbol.partition("/")
+    volts, signal = scale_of(first, "V"), last.strip("( )")
+    if is_per_volt := volts is None:
+        signal, _, last = symbol.rpartition("/")
+        signal, volts = signal.strip("( )"), scale_of(last, "V")
+    unit = next((one for one in ("m/s²", "m/s", "m", "N") if scale_of(signal, one) is not None), "")
+    if not (volts and unit and is_number(number) and float(number)):
+        raise ValueError(f'sensitivity must be as "100 mV/g", "10 mV/(m/s²)", "125 mm/s/V" or "2 um/V", got {text!r}')
+    scale = (scale_of(signal, unit) or 1.0) / volts
+    return unit, scale * float(number) if is_per_volt else scale / float(number)
+
+
+def counted(table: Table, column: Column, reading: Reading, step: float, word: str) -> Array:
+    """Even values in the place of a column. Warns where the file has some that go on by another step than is said."""
+    own, name = np.zeros(1), column.name
+    units = {key: one for key, one in (reading.units or {}).items() if key == name}
+    columns = {key: one for key, one in (reading.columns or {}).items() if key == name}
     with suppress(ValueError), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        t = table_of(table.text, table.source, (TIME,), reading).values["t"]
-    taken, rounded, n = float(np.ptp(t)), np.diff(np.unique(t)).min(initial=np.inf), t.size - 1
-    if abs(taken - step * n) - rounded > 0.01 * step * n:
-        what = f"its times last {taken:.4g} s, at this rate {step * n:.4g} s: the rate is taken"
-        warn_outside(f"{table.source}: {what}")
-
-
-def _of_time(given: Mapping[str, Any] | None) -> dict[str, Any]:
-    return {key: value for key, value in (given or {}).items() if key == "t"}
+        asked = reading._replace(units=units, columns=columns)
+        own = table_of(table.text, table.source, (column,), asked).values[name]
+    taken, said = float(np.ptp(own)), step * (own.size - 1)
+    rounded = np.diff(np.unique(own)).min(initial=np.inf)
+    if abs(taken - said) - rounded > 0.01 * said:
+        spans = f"over {shown(taken, column.unit)}, at this {word} over {shown(said, column.unit)}"
+        warn_outside(f"{table.source}: its {name} goes {spans}: the {word} is taken")
+    return np.asarray(step * np.arange(len(table.lines)))
 
 
 def _evened(t: Array, source: str) -> Array:

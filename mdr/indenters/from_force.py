@@ -95,6 +95,7 @@ class FromForce(Indenter):
         units: Units = None,
         columns: Columns = None,
         skip: int | None = None,
+        table: int | str | None = None,
         part: str = "approach",
         touch: float | None = None,
         baseline: float | None = None,
@@ -117,6 +118,8 @@ class FromForce(Indenter):
             What the header calls a column, {"d": "Weg", "F": "Kraft"}, or its number, from 1.
         skip : int, optional
             Lines above the header. None finds it.
+        table : int or str, optional
+            Which table of a file with several, from 1, or words above it.
         part : str
             "approach", to the greatest depth, or "retract", back from it; of several "approach 2". Holds and ways
             without contact are left out. Depths are sorted, or smoothed, within their noise.
@@ -166,8 +169,8 @@ class FromForce(Indenter):
         from mdr.files.measurements import LIKELY_MODULUS
 
         curve = read_force_curve(
-            path, units=units, columns=columns, skip=skip, part=part, touch=touch, baseline=baseline, tip=tip,
-            spring_constant=spring_constant,
+            path, units=units, columns=columns, skip=skip, table=table, part=part, touch=touch, baseline=baseline,
+            tip=tip, spring_constant=spring_constant,
         )  # fmt: skip
         d, F = curve.depths, curve.forces
         try:

@@ -123,6 +123,8 @@ class SampledProfile(Indenter):
         units: Units = None,
         columns: Columns = None,
         skip: int | None = None,
+        table: int | str | None = None,
+        pitch: float | None = None,
         apex: float = 0.0,
         side: str = "both",
         flip: bool = False,
@@ -142,6 +144,10 @@ class SampledProfile(Indenter):
             What the header calls a column, {"r": "Position", "f": "Z"}, or its number, from 1.
         skip : int, optional
             Lines above the header. None finds it.
+        table : int or str, optional
+            Which table of a file with several, from 1, or words above it.
+        pitch : float, optional
+            Step from height to height [m], in the place of radii: they are even, from 0.
         apex : float
             Where the tip is along the scan [m]; one of the points.
         side : str
@@ -177,7 +183,7 @@ class SampledProfile(Indenter):
         """
         from mdr.files.profiles import profile_points
 
-        r, f = profile_points(path, Reading(units, columns, skip), finite("apex", apex), side, flip)
+        r, f = profile_points(path, Reading(units, columns, skip, table), finite("apex", apex), side, flip, pitch)
         nearest = {b: float(r[np.argmin(np.abs(r - b))]) for b in radii("kinks", kinks)}
         named = tuple(to if abs(to - b) <= SAME * r[-1] else b for b, to in nearest.items())
         try:

@@ -41,6 +41,7 @@ UNITS = {
     "N/m": _prefixed("N/m", "kMmµ") | {"N/mm": 1e3, "N/µm": 1e6},
     "N s/m": _prefixed("N s/m", "kmµ") | {"N s/mm": 1e3},
     "1/m": {"1/m": 1.0, "1/mm": 1e3},
+    "V": _prefixed("V", "mµ"),
     "K": {"K": 1.0} | dict.fromkeys(("degC", "°C", "C"), 1.0),
     "-": dict.fromkeys(("", "-", "1"), 1.0) | {"%": 0.01},
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}

@@ -98,7 +98,7 @@ def test_a_recorded_motion_is_a_table_of_a_case_file(tmp_path, capsys):
     known = json_of(capsys, ["motion", str(path), "--u-z0", "20um", "--frequency", "80Hz", "--json"])
     assert known["left_out"] < 1e-4
     path.write_text(csv_text({"t [s]": t, "a_x [g]": a}))
-    assert "names no a_z" in words_of(capsys, ["motion", str(path), "--u-z0", "20um"], 2).err
+    assert "names none of a_z, v_z, u_z" in words_of(capsys, ["motion", str(path), "--u-z0", "20um"], 2).err
 
 
 def test_a_backend_that_matplotlib_lacks_is_no_fault_of_the_case(tmp_path):
