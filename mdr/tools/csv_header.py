@@ -237,6 +237,8 @@ class Header:
         needs_none = self._is_bare(column) or column.name in self.units
         fits = (FITS if column.measured_in(unit) else MISFITS) if unit else (FITS if needs_none else BARE)
         is_other = spelling == SPELLINGS - 1 and (fits == MISFITS or (fits == BARE and not column.needed))
+        others = (one.doubtful for one in self.columns if one is not column)
+        is_other |= fits != FITS and any(self.heads[index].spelling(one) is not None for one in others)
         return None if is_other else (fits, spelling)
 
     def _measures(self, index: int, column: Column) -> bool:

@@ -47,6 +47,14 @@ def test_the_command_integrates_accelerations(tmp_path, capsys):
     assert abs(found.cof) > 1e-3
     assert printed["left_out"] == pytest.approx(0.4)
     assert_allclose([printed["cof"], printed["mean_F_z"]], [found.cof, found.mean_F_z], rtol=1e-6, atol=1e-8)
+    other = tmp_path / "velocity"
+    other.mkdir()
+    first = (2j * np.pi * 80 - (t - 0.5) / 0.08**2) * with_ends
+    text = csv_text({"t [s]": t, "v_x [V]": 6e-6 * first.imag / 0.125, "a_z [mV]": 100 * a_z / 9.80665})
+    line_of_volts = [*written(other, text), "--high-pass", "5Hz", "--json", "--n-springs", "64"]
+    line_of_volts += ["--sensitivity", "v_x=125mm/s/V", "a_z=100mV/g"]
+    again = json_of(capsys, line_of_volts)
+    assert_allclose([again["cof"], again["mean_F_z"]], [found.cof, found.mean_F_z], rtol=1e-6, atol=1e-8)
     for change, words in [
         ([], "a_x is an acceleration: give the frequency above which it counts, --high-pass 5Hz"),
         (["--high-pass", "5"], "SlideRecord of 2401 samples"),
@@ -97,6 +105,15 @@ def test_a_recorded_motion_is_a_table_of_a_case_file(tmp_path, capsys):
     assert_allclose([case.oscillation.u_z0, case.omega], [20e-6, 2 * np.pi * 80], rtol=1e-6)
     known = json_of(capsys, ["motion", str(path), "--u-z0", "20um", "--frequency", "80Hz", "--json"])
     assert known["left_out"] < 1e-4
+    for unit, made in (("v_z [mm/s]", 1e3 * case.oscillation.u_z_dot(t)), ("u_z [um]", 1e6 * case.oscillation.u_z(t))):
+        path.write_text(csv_text({"t [s]": t, unit: made}))
+        again = json_of(capsys, ["motion", str(path), "--u-z0", "20um", "--json"])
+        assert_allclose([again["omega"], again["du_z"]], [known["omega"], known["du_z"]], rtol=1e-6)
+    path.write_text(csv_text({"t [s]": t, "Ch 1 [mV]": 100 * a / 9.80665}))
+    sensor = ["motion", str(path), "--u-z0", "20um", "--sensitivity", "100mV/g", "--json"]
+    assert_allclose(json_of(capsys, sensor)["du_z"], known["du_z"], rtol=1e-6)
+    path.write_text(csv_text({"t [s]": t, "v_z [m/s]": a, "a_z [g]": a}))
+    assert "names both a_z and v_z: leave one out" in words_of(capsys, ["motion", str(path), "--u-z0", "20um"], 2).err
     path.write_text(csv_text({"t [s]": t, "a_x [g]": a}))
     assert "names none of a_z, v_z, u_z" in words_of(capsys, ["motion", str(path), "--u-z0", "20um"], 2).err
 
@@ -115,7 +132,7 @@ def test_the_command_is_told_what_the_columns_are(tmp_path, capsys):
     line = [*written(tmp_path, f"time,x,z,T\n{rows}\n"), "--high-pass", "10Hz", "--n-springs", "32"]
     told = words_of(capsys, line, 2).err
     assert "u_x needs a unit" in told
-    assert "to read it as it is: --units t=s u_x=um u_z=um" in told
+    assert "z may be u_z, or another quantity: if it is u_z, --columns u_z=z" in told
     named = [*line, "--columns", "a_x=x", "a_z=z", "--units", "t=ms", "a_x=g", "a_z=g"]
     assert "left out: 0.2 of 2 s" in words_of(capsys, named).out
     Path(line[1]).write_text(f"made,x,z,T\n{rows}\n")

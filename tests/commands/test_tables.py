@@ -23,6 +23,8 @@ FILES = {
     "scan.csv": ("x [um], height [nm]", X, (X - 8) ** 2 / 10),
     "up.csv": ("x [um], height [nm]", X, -10 * abs(X)),
     "press.csv": ("d [um]; F [mN]", D, 0.4 * D**1.5),
+    "heights.csv": ("f [nm]", (X - 8) ** 2 / 10),
+    "piezo.csv": ("Height [um]; Load [mN]", D + 0.4 * D**1.5 / 20, 0.4 * D**1.5),
     "moduli.csv": ("f [Hz], T [C], E' [Pa], E'' [Pa]", HZ, 0 * HZ + 20, MODULI.real, MODULI.imag),
     "relaxation.csv": ("t [s], E [MPa]", T, 3 + np.exp(-T)),
     "creep.csv": ("t [s], D [1/MPa]", T, 0.4 - 0.1 * np.exp(-T)),
@@ -46,6 +48,12 @@ READ = {
         "scan.csv", smoothing=2e-9, side="left", apex=8e-6, kinks=(20e-6, 40e-6)
     ),
     "indenter press.csv --E-star 4MPa --tip round": lambda: mdr.FromForce.read("press.csv", E_star=4e6, tip="round"),
+    "indenter heights.csv --pitch 4um --apex 68um": lambda: mdr.SampledProfile.read(
+        "heights.csv", pitch=4e-6, apex=68e-6
+    ),
+    "indenter piezo.csv --E-star 4MPa --spring-constant 20kN/m": lambda: mdr.FromForce.read(
+        "piezo.csv", E_star=4e6, spring_constant=2e4
+    ),
     "material moduli.csv --nu 0.5 --temperature 20 --n-arms 3": lambda: mdr.Prony.fit(
         *mdr.read_moduli("moduli.csv", temperature=20), nu=0.5, n_arms=3
     ),
