@@ -20,18 +20,17 @@ from numpy.typing import NDArray
 
 from mdr.files.measurements import read_table
 from mdr.indenters.mapping.force_curves import TIPS, tip_of
-from mdr.tools.arrays import EXACT, Array
+from mdr.tools.arrays import Array
 from mdr.tools.checks import finite, positive
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Table, Units
 from mdr.tools.messages import MOST_TOLD
-from mdr.tools.turning_points import reach_of_noise, turning_points
+from mdr.tools.noisy_curves import before_it_stands, in_order, reach_of_noise, turning_points
 from mdr.tools.warned import warn_outside
 
 PARTS = ("approach", "retract")
 LEAST_PART = 0.02  #: share of the whole way from which on a way back is no jitter
 LEAST_RISE = 0.1  #: share of the range of forces that a part changes by, and what happens in the air does not
-SLOW = 0.1  #: share of the rate of the depth, below which a tip is held
 RISE = 0.3  #: share of the force up to which touch and baseline are looked for
 ON_IT = 1e-3  #: part of a step of depth within which a reading is that of the touch
 POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat one to a cone
@@ -115,7 +114,7 @@ def read_force_curve(
     if touch is not None and baseline is None and np.any(z < touch):
         baseline = float(F[z < touch].mean())
         warn_outside(f"{measured.source}: baseline={baseline:.4g} N is taken, the mean force before the touch")
-    d, F = _in_order(z - give * (F - (baseline or 0.0)), F)
+    d, F = in_order(z - give * (F - (baseline or 0.0)), F)
     if d.size > 2 * TOLD_FROM and np.sum(np.diff(F) ** 2) > np.sum((F - F.mean()) ** 2):  # of noise alone it is twice
         raise measured.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
     # the point (0, 0) is added to a depth that is at most three of the widest steps away
@@ -211,7 +210,7 @@ def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
     first, end = found[k]
     rows = np.arange(first, end) if way == "approach" else np.arange(end - 1, first - 1, -1)
     is_high = F[rows] - F[rows].min() > LEAST_RISE * np.ptp(F[rows])
-    rows = rows[: min(_before_a_hold(x[rows], is_high) for x in (z, F))]
+    rows = rows[: min(before_it_stands(x[rows], is_high) for x in (z, F))]
     unread = np.ones(z.size, dtype=bool)
     for others in (run for one in PARTS for run in parts[one] if run != (first, end)):
         unread[slice(*others)] = False
@@ -221,55 +220,6 @@ def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
         said = " and ".join(f"{lines[a]} to {lines[b - 1]}" for a, b in ends)
         warn_outside(f"{table.source}: lines {said} are left out: the tip is held there, or does not touch")
     return rows
-
-
-def _before_a_hold(x: Array, is_high: NDArray[np.bool_]) -> int:
-    """How many readings there are before depths, or forces, all but stand still, under a force that was raised."""
-    start, noise = 0, reach_of_noise(x)
-    while (n := x.size - start) > LEAST:
-        ahead = x[start:] - np.linspace(x[start], x[-1], n)
-        k = start + int(np.argmax(ahead))  # where it slows most
-        if ahead[k - start] <= noise or x.size - k <= LEAST:
-            break
-        if is_high[k] and (x[-1] - x[k]) / (x.size - 1 - k) < SLOW * (x[k] - x[start]) / (k - start):
-            return k + 1
-        start = k
-    return int(x.size)
-
-
-def _in_order(d: Array, F: Array) -> tuple[Array, Array]:
-    """Depths that ascend: as they are, sorted, or smoothed over the readings where forces know nothing of their noise.
-
-    Forces follow a tip that shakes, and not the noise of what reads its depth.
-    """
-    as_read, smooth = (_sorted(one, F) for one in (d, _smoothed(d)))
-    return smooth if _scatter(*smooth) < (1 - d.size**-0.5) * _scatter(*as_read) else as_read
-
-
-def _smoothed(d: Array) -> Array:
-    """Depths on a line or a spline over the number of the reading, of as many pieces as tell more than noise (BIC)."""
-    from scipy.interpolate import make_lsq_spline
-
-    n, best = np.linspace(0, 1, d.size), (np.inf, d)
-    for degree, pieces in ((1, 1), *((3, 2**k) for k in range(int(np.log2(max(d.size / 8, 1)))))):
-        knots = np.concatenate([[0.0] * degree, np.linspace(0, 1, pieces + 1), [1.0] * degree])
-        smooth = np.asarray(make_lsq_spline(n, d, knots, degree)(n)) if d.size > 2 * degree else d
-        rest = max(float(np.var(d - smooth)), EXACT * float(np.var(d)))
-        score = d.size * np.log(rest) + (degree + pieces) * np.log(d.size)
-        best = min(best, (score, smooth), key=lambda one: one[0])
-    return best[1]
-
-
-def _sorted(d: Array, F: Array) -> tuple[Array, Array]:
-    """Pairs in the order of depth; at one depth the mean of the forces."""
-    there, which, counts = np.unique(d, return_inverse=True, return_counts=True)
-    return there, np.bincount(which, F) / counts
-
-
-def _scatter(d: Array, F: Array) -> float:
-    """Mean square of forces off the straight line between the two beside them."""
-    share = (d[1:-1] - d[:-2]) / (d[2:] - d[:-2])
-    return float(np.mean((F[1:-1] - F[:-2] - share * (F[2:] - F[:-2])) ** 2)) if d.size > 2 else 0.0
 
 
 def _begins_before(d: Array, F: Array, touch: float, are_depths: bool) -> bool:
