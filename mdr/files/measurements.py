@@ -8,6 +8,7 @@ in `profiles`, force over depth in
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from os import PathLike, fsdecode
 from typing import Any, NamedTuple
@@ -20,9 +21,10 @@ from mdr.materials.base import poisson_ratio
 from mdr.materials.prony_fit import ONE, TOLD, twice
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, positive
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_layout import decoded
+from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_layout import decoded, kind_of
 from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
+from mdr.tools.messages import MOST_TOLD
 from mdr.tools.notation import ZEROS
 from mdr.tools.warned import warn_outside
 
@@ -31,14 +33,42 @@ MOST_SHIFTED = 15.0  #: decades by which a frequency is shifted up
 WITHIN = 0.5  #: [K], that readings at one temperature may be off it
 MOST_BYTES = 2**27  #: of a table
 TAN_DELTA = ("tan(delta)", "tan δ", "tan(δ)", "tan d", "loss tangent", "loss factor", "damping", "damping factor")
+#: words of an instrument by which its "storage modulus" is that of shear, or of tension
+OF_SHEAR = ("torque", "viscosity", "shear", "rheometer", "plate")
+OF_TENSION = ("DMA", "tension", "tensile", "bending", "cantilever", "Young")
+
+
+def _moduli(
+    names: tuple[str, str, str], more: tuple[tuple[str, ...], ...], beside: tuple[str, ...], way_out: str
+) -> tuple[Column, Column, Column]:
+    """Storage, loss and absolute modulus of one way to load, which instruments call by the same words."""
+    storage, loss, absolute = (
+        Column(name, own, "Pa", needed=False, likely=LIKELY_MODULUS, beside=beside, doubtful=words, asked=way_out)
+        for name, own, words in zip(
+            names, more, (("storage modulus",), ("loss modulus",), ("complex modulus", "dynamic modulus")), strict=True
+        )
+    )
+    return storage, loss._replace(likely=(0.0, math.inf)), absolute
+
+
+TENSION = _moduli(
+    ("storage", "loss", "|E*|"),
+    (("E'", "tensile storage modulus"), ("E''", "tensile loss modulus"), ("|E|", "E*")),
+    OF_TENSION,
+    "",
+)
+SHEAR = _moduli(
+    ("G'", "G''", "|G*|"),
+    (("shear storage modulus",), ("shear loss modulus",), ("|G|", "G*", "complex shear modulus")),
+    OF_SHEAR,
+    "of shear, give nu= too",
+)
 MODULI = (
     Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s", lone=True),
-    Column("storage", ("E'", "storage modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
-    Column("loss", ("E''", "loss modulus"), "Pa", needed=False),
-    Column("|E*|", ("|E|", "E*", "complex modulus", "dynamic modulus"), "Pa", needed=False, likely=LIKELY_MODULUS),
+    *TENSION,
+    *SHEAR,
     Column("tan_delta", TAN_DELTA, needed=False, likely=(0.0, 5.0)),
-    Column("G'", ("shear storage modulus",), "Pa", needed=False, likely=LIKELY_MODULUS),
-    Column("G''", ("shear loss modulus",), "Pa", needed=False),
+    Column("phase", ("phase angle", "phase shift", "phase lag", "loss angle", "δ", "delta"), "rad", needed=False),
     Column("T", ("temperature", "temp"), "K", needed=False, likely=(100.0, 2000.0)),
 )
 
@@ -53,7 +83,10 @@ class DynamicModuli(NamedTuple):
 
 def read_table(path: str | PathLike[str], columns: Sequence[Column], reading: Reading) -> Table:
     """The columns in a CSV file."""
-    text, said = decoded(read_bytes(path, MOST_BYTES, "table"))
+    data = read_bytes(path, MOST_BYTES, "table")
+    if kind := kind_of(data):
+        raise fault(fsdecode(path), f"is {kind}")
+    text, said = decoded(data)
     return table_of(text, fsdecode(path), columns, reading, said)
 
 
@@ -110,25 +143,15 @@ def read_moduli(
     [3000000. 4000000.] [300000. 800000.]
     >>> rubber = mdr.Prony.fit(*moduli, nu=0.5)
     """
-    table = read_table(path, MODULI, Reading(units, columns, skip))
+    wanted = [one._replace(given="nu=") if nu is not None and one in SHEAR else one for one in MODULI]
+    table = read_table(path, wanted, Reading(units, columns, skip))
     found = table.values
-    of_shear, stretch = "storage" not in found and "G'" in found, 1.0
-    if of_shear:
-        if nu is None:
-            raise table.fault("shear moduli G' and G'' need Poisson's ratio, as E = 2 (1 + nu) G: give nu=")
-        stretch = 2 * (1 + poisson_ratio("nu", nu))
-    storage, loss = (found.get(name) for name in (("G'", "G''") if of_shear else ("storage", "loss")))
-    if storage is None and "|E*|" in found and "tan_delta" in found:
-        storage = found["|E*|"] / np.hypot(1, found["tan_delta"])
-    if storage is None:
-        raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa]", "storage", "loss")
-    if loss is None and "tan_delta" not in found:
-        raise table.lacks("neither E'' nor tan delta", "f [Hz], E' [MPa], tan delta", "loss")
+    storage, loss, kind = _components(table, nu is not None)
+    if kind is None:
+        raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa], or G', G'' of shear", "storage", "loss")
+    stretch = 2 * (1 + poisson_ratio("nu", nu)) if kind is SHEAR else 1.0
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
         require_rows(table, values > 0, f"{name} must be positive")
-    if loss is not None and "tan_delta" in found:
-        _require_same(table, loss / storage, found["tan_delta"])
-    loss = storage * found["tan_delta"] if loss is None else loss
     sign = "" if np.any(loss > 0) else "; all are: turn the sign of the column"
     require_rows(table, loss >= 0, f"loss must not be negative{sign}")
     if wlf is None:
@@ -139,6 +162,38 @@ def read_moduli(
         omega, modulus = found["omega"] * _shift(table, temperature, wlf), stretch * (storage + 1j * loss)
     order = np.argsort(omega, kind="stable")
     return DynamicModuli(omega[order], modulus.real[order], modulus.imag[order])
+
+
+def _components(table: Table, of_shear: bool) -> tuple[Any, Any, Sequence[Column] | None]:
+    """Storage and loss modulus, and which they are, from what the file has of modulus, loss tangent and phase."""
+    found, kinds = table.values, [one for one in (TENSION, SHEAR) if any(column.name in table.values for column in one)]
+    if not kinds:
+        return None, None, None
+    if len(kinds) > 1:
+        both = " and ".join(next(one.name for one in kind if one.name in found) for kind in kinds)
+        raise table.fault(f'{both}: moduli of tension and of shear; leave one out, columns={{...: ""}}')
+    (kind,) = kinds
+    name = next(one.name for one in kind if one.name in found)
+    if of_shear and kind is TENSION:
+        shear = 'if it is of shear, columns={"G\'": ...}'
+        raise table.fault(f"nu= has no effect on {name}, a modulus in tension: leave it out; {shear}")
+    if kind is SHEAR and not of_shear:
+        raise table.fault(f"{name} is a shear modulus and needs Poisson's ratio, as E = 2 (1 + nu) G: give nu=")
+    storage, loss, absolute = (found.get(one.name) for one in kind)
+    tangent = found.get("tan_delta")
+    if tangent is None and "phase" in found:
+        right = (found["phase"] >= 0) & (found["phase"] < math.pi / 2)
+        require_rows(table, right, "phase must lie between 0 and 90 degrees")
+        tangent = np.tan(found["phase"])
+    if storage is None and absolute is not None and tangent is not None:
+        storage = absolute / np.hypot(1, tangent)
+    if storage is None:
+        raise table.lacks(f"{name} alone", "f [Hz], E' [MPa], E'' [MPa]", kind[0].name, kind[1].name)
+    if loss is None and tangent is None:
+        raise table.lacks("neither loss modulus, tan delta nor phase", "f [Hz], E' [MPa], tan delta", kind[1].name)
+    if loss is not None and tangent is not None:
+        _require_same(table, loss / storage, tangent)
+    return storage, storage * tangent if loss is None else loss, kind
 
 
 def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:
@@ -171,7 +226,9 @@ def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]
         return np.arange(len(table.lines))
     T = _celsius(table)
     known = np.sort(T)
-    there = ", ".join(f"{part.mean():.6g}" for part in np.split(known, np.flatnonzero(np.diff(known) > WITHIN) + 1))
+    means = [part.mean() for part in np.split(known, np.flatnonzero(np.diff(known) > WITHIN) + 1)]
+    few = 1 < len(means) <= MOST_TOLD
+    there = ", ".join(f"{one:.6g}" for one in means) if few else f"{known[0]:.6g} to {known[-1]:.6g}"
     if temperature is None:
         if np.ptp(T) > 2 * WITHIN:
             example = f"temperature={T[0]:.4g}"

@@ -1,30 +1,46 @@
 """The header of a table: which column stands where and in which unit, or what to write instead.
 
 What `columns=` names, or numbers, is taken first. Of the other cells those in a unit of the column come first, then
-those without a unit, then those in another; among these the best spelling: exact; exact but for spaces, points,
-hyphens and underscores; a word in letters of another case; a single letter of another case, if its unit fits (`T [C]`
-is no time t, `U [V]` no displacement u). A column that is still missing is the only cell in a unit of it, if there is
+those without a unit, then those in another; among these the best spelling: exact; exact but for signs between letters;
+a word in letters of another case; a single letter of another case, if its unit fits (`T [C]` is no time t). A name that
+may mean another quantity is asked about. A column that is still missing is the only cell in a unit of it, if there is
 one; this guess is told. What nobody names is left alone: where `columns=` says that the letter of one quantity is
 another, as x of an acceleration, other letters are none that may be left out.
+
+What is printed to be copied is made of the file alone: `...` stands for what it does not say.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 from itertools import product, zip_longest
 from typing import NamedTuple
 
 from mdr.tools.messages import one_line, short
-from mdr.tools.notation import listed, scale_of
+from mdr.tools.notation import is_unit, listed, scale_of
 
-_HEAD = re.compile(
-    r"(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])\[(]*)[\])]|\s*/\s*(?P<other>\S.*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))?"
-)
-QUANTITIES = ("COF", "cof", "mu", "μ", "µ", "friction")  #: of which a pure number in brackets says that it is
+_BRACKETS = re.compile(r"\s*(?:\[(?P<square>[^\])\[(]*)[\])]|[(<{](?P<round>[^\])\[(<>}]*)[\])>}])\s*")
+_BEHIND = re.compile(r"(?P<name>.*?)(?:\s*/\s*(?P<slash>[^\s\[\]()][^\[\]()]*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))")
+_LOGARITHM = re.compile(r"(?:log|lg|ln)(?:_?10)?(?=[\s_(\[.])", re.IGNORECASE)
 SPELLINGS = 4  #: how well a name fits, best first
 FITS, BARE, MISFITS = range(3)  #: a unit of the column, none where one is needed, another
+#: what is measured in a unit of the library
+MEASURED = {
+    "m": "a length", "m/s": "a velocity", "m/s²": "an acceleration", "N": "a force", "Pa": "a stress or a modulus",
+    "rad/s": "a frequency or a speed of rotation", "rad": "an angle", "s": "a time", "K": "a temperature", "kg": "a mass",
+    "N m": "a torque", "V": "a voltage", "Pa s": "a viscosity", "N/m": "a stiffness", "1/Pa": "a compliance",
+    "-": "a pure number",
+}  # fmt: skip
+#: what makes a quantity one of another unit
+USABLE = {
+    ("rad/s", "m/s"): "times the radius of the track (and 2 pi, of turns) it is a velocity",
+    ("N m", "N"): "over the arm it is a force", ("N m", "-"): "over arm and load it is a COF",
+    ("N", "-"): "over the normal force it is a COF", ("m/s", "m"): "integrated once it is a way",
+    ("m/s", "m/s²"): "its rate is an acceleration", ("rad", "-"): "give its tangent",
+}  # fmt: skip
 
 
 class Column(NamedTuple):
@@ -41,6 +57,8 @@ class Column(NamedTuple):
     likely: tuple[float, float] = (0.0, math.inf)  #: range of the greatest absolute value; outside a unit may be wrong
     doubtful: tuple[str, ...] = ()  #: names that may mean another quantity: asked about, unless `columns=` names them
     asked: str = ""  #: what else a doubtful name may mean, and the way out then
+    beside: tuple[str, ...] = ()  #: words in the header, or above it, by which a doubtful name is this column
+    given: str = ""  #: an argument that says the same
 
     @property
     def example(self) -> str:
@@ -49,6 +67,11 @@ class Column(NamedTuple):
             self.unit, self.unit
         )
         return self.name if unit == "-" else f"{self.name} [{unit}]"
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it needs no unit."""
+        return self.bare or self.unit == "-"
 
     def measured_in(self, unit: str) -> bool:
         """Whether a unit is one of this quantity."""
@@ -64,35 +87,74 @@ class Place(NamedTuple):
 
 
 class Head(NamedTuple):
-    """One cell of a header, as "r [um]", "r (um)", "r / um", "r, um" or "r in um"."""
+    """One cell of a header, as "r [um]", "r (um)", "r / um", "r, um", "r in um" or "r_um"."""
 
-    name: str
-    unit: str
     whole: str
-    below: str = ""  #: unit in a row of its own
+    name: str  #: without the unit
+    unit: str
+    is_sure: bool  #: whether it is a unit, and no part of the name as in E(t)
+    is_suffix: bool  #: whether it is the end of the name, as in u_m
 
     @classmethod
-    def of(cls, cell: str) -> Head:
-        """Name and unit in a cell."""
-        whole = cell.strip()
-        found = _HEAD.fullmatch(whole)
-        if found is None:
-            return cls(whole, "", whole)
-        unit = next((found[one] for one in ("unit", "other", "after") if found[one]), "")
-        return cls(found["name"], unit.strip(" ()"), whole)
+    def of(cls, cell: str, below: str = "") -> Head:
+        """Name and unit in a cell, or in one below it."""
+        whole, unsure = cell.strip(), None
+        brackets = list(_BRACKETS.finditer(whole))
+        for found in brackets:
+            unit = (found["square"] or found["round"] or "").strip()
+            named = cls(whole, f"{whole[: found.start()]} {whole[found.end() :]}".strip(), unit, True, False)
+            if is_unit(unit) and len(brackets) == 1:
+                return named
+            if found.end() == len(whole) and named.name and unit:
+                sure = is_unit(unit) or found["square"] is not None or any(one in unit for one in "/^")
+                unsure = named._replace(is_sure=sure)
+        if unsure is not None and (unsure.is_sure or not below):
+            return unsure
+        if not brackets and (behind := _BEHIND.fullmatch(whole)):
+            unit = (behind["slash"] or behind["after"]).strip()
+            return cls(whole, behind["name"], unit, is_unit(unit), False)
+        if below:
+            return cls(whole, whole, below, True, False)
+        parts = re.split(r"[_\s.]+", whole)
+        for start, end in ((start, end) for end in range(len(parts), 1, -1) for start in range(1, end)):
+            unit = "/".join(parts[start:end]).replace("/per/", "/")
+            # one letter within the name is an index
+            if is_unit(unit) and end - start < 4 and (end == len(parts) or len(unit) > 1):
+                return cls(whole, "_".join([*parts[:start], *parts[end:]]), unit, True, True)
+        return cls(whole, whole, "", True, False)
 
-    def spelling(self, names: Sequence[str]) -> int | None:
-        """How well it is spelt as one of the names, 0 for exactly; None for another name."""
-        ranks = [rank for one in (self.name, self.whole) if (rank := _spelling(one, names)) is not None]
-        return min(ranks, default=None)
+    @property
+    def is_logarithm(self) -> bool:
+        """Whether the name says so."""
+        return bool(_LOGARITHM.match(self.whole))
 
-    def unit_of(self, column: Column, names: Sequence[str]) -> str:
-        """The unit behind one of these names; brackets that belong to the name are none."""
-        name, whole = (_spelling(one, names) for one in (self.name, self.whole))
-        is_name = whole is not None and (name is None or whole <= name)
-        is_quantity = column.unit == "-" and self.unit in QUANTITIES  # as in SD (COF)
-        own = self.unit if column.measured_in(self.unit) or not (is_name or is_quantity) else ""
-        return own or self.below
+    @property
+    def axes(self) -> set[str]:
+        """Letters of axes that stand as words in it."""
+        return set("xyz") & set(re.split(r"[\W_]+", self.name.casefold()))
+
+    @property
+    def quantity(self) -> str:
+        """The unit of the library that its unit measures in; empty without one."""
+        own = (one for one in MEASURED if self.unit and self.is_sure and scale_of(self.unit, one) is not None)
+        return next(own, "")
+
+    def readings(self) -> Iterator[tuple[str, str]]:
+        """Names that it may have, each with the unit that it then has."""
+        yield self.name, self.unit
+        if self.name != self.whole and (self.is_suffix or not self.is_sure):
+            yield self.whole, ""
+
+    def rank(self, column: Column, names: Sequence[str], needs_unit: bool) -> tuple[int, int, str] | None:
+        """How well unit and spelling fit a column of these names, and the unit; None for another name."""
+        is_symbol = self.is_suffix and self.whole in (column.name, *names)  # as F_N
+        found = []
+        for name, unit in [(self.whole, "")] if is_symbol else self.readings():
+            spelling = _spelling(name, names)
+            fits = (FITS if column.measured_in(unit) else MISFITS) if unit else (BARE if needs_unit else FITS)
+            if spelling is not None and not (fits == MISFITS and self.is_suffix):
+                found.append((fits, spelling, unit))
+        return min(found, default=None)
 
 
 class Header:
@@ -105,12 +167,14 @@ class Header:
         columns: Sequence[Column],
         units: Mapping[str, str],
         called: Mapping[str, str | int],
+        above: str = "",
     ) -> None:
-        self.columns, self.units, self.called = columns, units, called
-        self.heads = [Head.of(cell)._replace(below=unit) for cell, unit in zip_longest(cells, below, fillvalue="")]
+        self.columns, self.units, self.called, self.above = columns, units, called, above
+        self.heads = [Head.of(cell, unit) for cell, unit in zip_longest(cells, below, fillvalue="")]
         others = [(own, one) for name, own in called.items() for one in columns if one.name != name]
         self.letters_differ = any(own in one.names for own, one in others)
         self.at: dict[str, int] = {}  #: cell of each column that was found
+        self.written: dict[str, str] = {}  #: its unit in the header
         self.said: list[str] = []  #: guesses
         self.faults: list[str] = []
         self._take_called()
@@ -119,7 +183,7 @@ class Header:
         self._take_lone()
         self.places = [Place(one, self.at[one.name], self._unit(one)) for one in columns if one.name in self.at]
         self.faults += [what for place in self.places if (what := self._fault(place.column))]
-        wanted = [one for one in columns if one.needed or one.name in {*units, *called}]
+        wanted = [one for one in columns if one.needed or one.name in {*units, *called, *asked}]
         self.absent = [one for one in wanted if one.name not in self.at and called.get(one.name) != ""]
         if unnamed := [one for one in self.absent if one.name not in {*called, *asked}]:
             self.faults.insert(0, self._lacks(unnamed))
@@ -129,30 +193,32 @@ class Header:
         if all(place.column.needed for place in self.places):
             more = [*more, *(one for one in self.columns if one.lone and not one.needed)]
         absent = list(dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)]))
-        free = self._free()
-        columns = {name: own for name, own in self.called.items() if name in self.at or own == ""}
-        bare = [one for one in self.columns if one.name in self.at and self._lacks_unit(one)]
-        blank = [i for i in free if not self.heads[i].unit]
+        columns = {name: repr_of(own) for name, own in self.called.items() if name in self.at or own == ""}
         for one in absent:
-            # a cell in its unit, of several that with its letter; or one of as many without a unit as there are columns
-            fitting = [i for i in free if self._measures(i, one) and not self._axes(i) - {one.name[-1]}]
-            fitting.sort(key=lambda i: one.name[-1] not in self._axes(i))
-            at = next(iter(fitting or ([i for i in blank if i in free] if len(blank) == len(absent) else [])), None)
-            if at is None and not (one.needed or one.lone) and any(other.lone for other in more):
-                continue
-            columns[one.name] = "..." if at is None else self.heads[at].name or at + 1
-            free = [i for i in free if i != at]
-            bare += [one] if not fitting and not self._is_bare(one) and one.name not in self.units else []
-        units = {**self.units, **{one.name: one.example.partition("[")[2].rstrip("]") for one in bare}}
-        if not absent and not bare:
+            at = self._meant(one)
+            if at is not None or one.needed or one.lone or not any(other.lone for other in more):
+                columns[one.name] = "..." if at is None else self.word_for(at)
+        units = {name: repr_of(own) for name, own in self.units.items()}
+        units |= {one.name: "..." for one in self.columns if one.name in self.at and self._lacks_unit(one)}
+        said = [(kind, words) for kind, words in (("columns", columns), ("units", units)) if words]
+        if not absent and "..." not in units.values():
             return ""
-        return ", ".join(f"{name}={_dict(said)}" for name, said in (("columns", columns), ("units", units)) if said)
+        return ", ".join(
+            f"{kind}={{{', '.join(f'{repr_of(name)}: {word}' for name, word in words.items())}}}"
+            for kind, words in said
+        )
+
+    def word_for(self, at: int) -> str:
+        """What names a cell, as it is typed: its name, if it is that of no other, or else its number."""
+        name = self.heads[at].name
+        one_of_it = name.isprintable() and len(name) <= 60 and self._cells_called(name) == [at]
+        return repr_of(name) if one_of_it else str(at + 1)
 
     @property
     def unread(self) -> list[str]:
         """Names of the cells that are no column and may be pure numbers."""
         heads = [self.heads[i] for i in self._free()]
-        return [one.name for one in heads if one.name and {one.unit, one.below} <= {"", "-", "1", "%"}]
+        return [one.name for one in heads if one.name and one.unit in ("", "-", "1", "%")]
 
     # --- names ---
 
@@ -165,8 +231,7 @@ class Header:
             if own == "":
                 self.faults += [f'columns: {column.name} is needed, got ""'] if column.needed else []
                 continue
-            ranks = {i: rank for i, head in enumerate(self.heads) if (rank := head.spelling((str(own),))) is not None}
-            found = [i for i, rank in ranks.items() if rank == min(ranks.values())]
+            found = [] if isinstance(own, int) else self._cells_called(own)
             if isinstance(own, int) or (not found and own.isascii() and own.isdigit()):
                 found = [int(own) - 1] if 0 < int(own) <= len(self.heads) else []
             taken = [name for name, index in self.at.items() if index in found]
@@ -176,34 +241,63 @@ class Header:
             elif taken:
                 self.faults.append(f"columns: {taken[0]} and {column.name} are both called {short(str(own))}; give one")
             else:
-                self._take(column, found)
+                head = self.heads[found[0]]
+                # an index, as that of mu_s, is no unit
+                is_index = head.is_suffix and not column.measured_in(head.unit) and len(head.unit) == 1
+                by_whole = not isinstance(own, int) and _spelling(head.name, (own,)) is None and not head.is_sure
+                self._take(column, found, "" if is_index or by_whole else head.unit)
+                if head.is_logarithm and not isinstance(own, int):
+                    self.faults.append(f"{short(head.whole)} is a logarithm: give its power of the base in the file")
+
+    def _cells_called(self, own: str) -> list[int]:
+        """The cells that are best spelt so."""
+        ranks = [
+            (rank + (SPELLINGS if head.is_suffix and one != head.whole else 0), i)
+            for i, head in enumerate(self.heads)
+            for one in (head.name, head.whole)
+            if (rank := _spelling(one, (own,))) is not None
+        ]
+        return sorted({i for rank, i in ranks if rank == min(ranks)[0]})
 
     def _take_named(self) -> None:
         """The columns whose names are in the header, the best first."""
+        open_ones = [one for one in self.columns if one.name not in {*self.at, *self.called}]
+        ranks = {(one.name, i): self._rank(one, i) for one in open_ones for i in self._free()}
         for fit, spelling in product((FITS, BARE, MISFITS), range(SPELLINGS)):
-            for column in self.columns:
-                if column.name not in self.at and column.name not in self.called:
-                    found = [i for i in self._free() if self._rank(column, i) == (fit, spelling)]
-                    if found:
-                        self._take(column, found)
+            for column in (one for one in open_ones if one.name not in self.at):
+                fitting = {i: rank for i in self._free() if (rank := ranks[column.name, i]) is not None}
+                if found := [i for i, rank in fitting.items() if rank[:2] == (fit, spelling)]:
+                    self._take(column, found, fitting[found[0]][2])
 
     def _ask(self) -> set[str]:
-        """Ask about cells whose name may mean one of the missing columns or another quantity; the columns asked for."""
+        """Decide, or ask about, cells whose name may mean a missing column or another quantity; those asked for."""
         asked: dict[int, list[Column]] = {}
         for column in self.columns:
             if column.name not in {*self.at, *self.called}:
                 for i in self._free():
-                    rank = self.heads[i].spelling(column.doubtful)
-                    unit = self.heads[i].unit_of(column, column.doubtful)
-                    if rank is not None and (column.measured_in(unit) or not unit):
+                    rank = self.heads[i].rank(column, column.doubtful, not column.is_bare)
+                    if rank is not None and rank[0] != MISFITS:
                         asked.setdefault(i, []).append(column)
         for i, columns in asked.items():
-            head, whose = short(self.heads[i].whole), " or ".join(one.name for one in columns)
-            ways = [f'if it is {one.name}, columns={{"{one.name}": "{short(self.heads[i].name)}"}}' for one in columns]
+            words = {one.name: self._word_beside(one, i) for one in columns}
+            if len(sure := [one for one in columns if words[one.name]]) == 1 and sure[0].name not in self.at:
+                (one,) = sure
+                self._take(one, [i], self.heads[i].unit)
+                self.said.append(f"{short(self.heads[i].whole)} is read as {one.name}, for {words[one.name]}")
+        asked = {i: columns for i, columns in asked.items() if i not in self.at.values()}
+        for i, columns in asked.items():
+            ways = [f"if it is {one.name}, columns={{{repr_of(one.name)}: {self.word_for(i)}}}" for one in columns]
             ways += dict.fromkeys(one.asked for one in columns if one.asked)
             ways += [f'columns={{"{one.name}": ""}} leaves it out' for one in columns[:1] if not one.needed]
-            self.faults.append(f"{head} may be {whose}, or another quantity: {'; '.join(ways)}")
-        return {one.name for columns in asked.values() for one in columns}
+            whose = " or ".join(one.name for one in columns)
+            self.faults.append(f"{short(self.heads[i].whole)} may be {whose}, or another quantity: {'; '.join(ways)}")
+        return {one.name for columns in asked.values() for one in columns if one.needed}
+
+    def _word_beside(self, column: Column, at: int) -> str:
+        """A word in another cell, or above, by which a doubtful name is this column."""
+        told = " ".join([self.above, *(head.whole for i, head in enumerate(self.heads) if i != at)])
+        words = (word for word in column.beside if re.search(rf"(?<![^\W\d_]){word}", told, re.IGNORECASE))
+        return column.given or next(words, "")
 
     def _take_lone(self) -> None:
         """The columns that are missing, where one cell alone is in a unit of them."""
@@ -211,94 +305,116 @@ class Header:
         for column in self.columns:
             is_open = column.lone and column.name not in self.at and column.name not in self.called
             if is_open and (column.needed or is_bare):
-                of_unit = [i for i, head in enumerate(self.heads) if self._measures(i, column)]
-                if any(self.heads[i].spelling(column.doubtful) is not None for i in of_unit):
-                    continue  # asked about
-                if len(of_unit) == 1 and of_unit[0] in self._free():
-                    self._take(column, of_unit)
+                of_unit = [i for i, head in enumerate(self.heads) if self._measures(head, column)]
+                if len(of_unit) == 1 and of_unit[0] in self._free() and not self._is_doubtful(of_unit[0]):
+                    self._take(column, of_unit, self.heads[of_unit[0]].unit)
                     self.said.append(f"{short(self.heads[of_unit[0]].whole)} is read as {column.name}")
 
-    def _take(self, column: Column, found: list[int]) -> None:
+    def _take(self, column: Column, found: list[int], unit: str) -> None:
         if len(found) > 1:
-            which = f'say which it is, columns={{"{column.name}": {found[0] + 1}}} for the first'
+            which = f"say which it is, columns={{{repr_of(column.name)}: {found[0] + 1}}} for the first"
             self.faults.append(f"the header names {column.name} twice; {which}")
-        self.at[column.name] = found[0]
+        self.at[column.name], self.written[column.name] = found[0], unit
 
     def _free(self) -> list[int]:
         return [i for i in range(len(self.heads)) if i not in self.at.values()]
 
-    def _rank(self, column: Column, index: int) -> tuple[int, int] | None:
-        """How well unit and spelling of a cell fit; None for another name."""
+    def _rank(self, column: Column, index: int) -> tuple[int, int, str] | None:
+        """How well unit and spelling of a cell fit, and its unit; None for another name."""
         names = [one for one in column.names if column.needed or len(one) > 1 or not self.letters_differ]
-        spelling = self.heads[index].spelling((column.name, *names))
-        if spelling is None:
+        needs_unit = not column.is_bare and column.name not in self.units
+        rank = self.heads[index].rank(column, (column.name, *names), needs_unit)
+        if rank is None or self.heads[index].is_logarithm:
             return None
-        unit = self.heads[index].unit_of(column, (column.name, *column.names))
-        needs_none = self._is_bare(column) or column.name in self.units
-        fits = (FITS if column.measured_in(unit) else MISFITS) if unit else (FITS if needs_none else BARE)
-        is_other = spelling == SPELLINGS - 1 and (fits == MISFITS or (fits == BARE and not column.needed))
+        is_other = rank[1] == SPELLINGS - 1 and (rank[0] == MISFITS or (rank[0] == BARE and not column.needed))
         others = (one.doubtful for one in self.columns if one is not column)
-        is_other |= fits != FITS and any(self.heads[index].spelling(one) is not None for one in others)
-        return None if is_other else (fits, spelling)
+        is_other |= rank[0] != FITS and any(_spelling(self.heads[index].name, one) is not None for one in others)
+        return None if is_other else rank
 
-    def _measures(self, index: int, column: Column) -> bool:
+    def _measures(self, head: Head, column: Column) -> bool:
         """Whether a cell has a unit of the column."""
-        return column.unit != "-" and column.measured_in(self.heads[index].unit or self.heads[index].below)
+        return column.unit != "-" and column.measured_in(head.unit) and not head.is_logarithm
+
+    def _is_doubtful(self, index: int) -> bool:
+        """Whether its name may mean another quantity than those of its unit."""
+        head = self.heads[index]
+        return any(_spelling(one, column.doubtful) is not None for column in self.columns for one in head[:2])
+
+    def _meant(self, column: Column) -> int | None:
+        """The free cell that can only be this column: by its unit, and by the letter of an axis."""
+        able = [one for one in self.columns if one.name not in self.at and self.called.get(one.name) != ""]
+        fitting = [i for i in self._free() if self._measures(self.heads[i], column) and not self._is_doubtful(i)]
+        fitting = [i for i in fitting if not self.heads[i].axes - {column.name[-1]}]
+        fitting = [i for i in fitting if column.name[-1] in self.heads[i].axes] or fitting
+        if len(fitting) != 1:
+            return None
+        head = self.heads[fitting[0]]
+        rivals = [one for one in able if one is not column and self._measures(head, one)]
+        is_its_axis = column.name[-1] in head.axes
+        return None if any(one.needed or not (column.needed or is_its_axis) for one in rivals) else fitting[0]
 
     def _lacks(self, absent: Sequence[Column]) -> str:
-        """What the header names not, and what it must."""
+        """What the header names not, what it must, and what else is there."""
         names = " and no ".join(one.name for one in absent)
         example = ", ".join(one.example for one in self.columns if one.needed)
         instead = "".join(f", or give {one.instead}" for one in absent if one.instead)
         named = "the header names" if any(head.whole for head in self.heads) else "there is no header, which names"
-        return f"{named} no {names}; write {example}{instead}"
+        return f"{named} no {names}; write {example}{instead}{self.others(absent)}"
 
-    def _axes(self, index: int) -> set[str]:
-        """Letters of axes that stand as words in a cell."""
-        return set("xyz") & set(re.split(r"[\W_]+", self.heads[index].name.casefold()))
+    def others(self, absent: Sequence[Column]) -> str:
+        """What cells measure that are none of the columns, and what would make them so."""
+        said = []
+        for head in (self.heads[i] for i in self._free()):
+            if head.is_logarithm:
+                said.append(f"{short(head.whole)} is a logarithm, give its power of the base in the file")
+            elif head.quantity and not any(one.measured_in(head.unit) for one in self.columns if one.unit != "-"):
+                said.append(f"{short(head.whole)} is {MEASURED[head.quantity]}{_usable(head.quantity, absent)}")
+        return "".join(f"; {one}" for one in said[:3])
 
     # --- units ---
 
-    def _written(self, column: Column) -> str:
-        """The unit in the header."""
-        own = self.called.get(column.name)
-        names = (str(own),) if own else (column.name, *column.names)
-        return self.heads[self.at[column.name]].unit_of(column, names)
-
     def _unit(self, column: Column) -> str:
         """The unit that is written, or that which `units` gives."""
-        return self._written(column) or self.units.get(column.name, "")
-
-    def _is_bare(self, column: Column) -> bool:
-        return column.bare or column.unit == "-"
+        written, given = self.written.get(column.name, ""), self.units.get(column.name, "")
+        return given if given and not is_unit(written) else written or given
 
     def _lacks_unit(self, column: Column) -> bool:
-        return not (self._unit(column) or self._is_bare(column))
+        return not (self._unit(column) or column.is_bare)
 
     def _fault(self, column: Column) -> str:
         """What is wrong with the unit of a column; empty where nothing is."""
-        name, unit, written, given = column.name, column.unit, self._written(column), self.units.get(column.name)
+        name, unit, written, given = column.name, column.unit, self._unit(column), self.units.get(column.name)
         if given is not None and scale_of(given, unit) is None:
             return f"units: {name} = {short(repr(given))} is none of {listed(unit)}"
         if written and not column.measured_in(written):
+            what = self.heads[self.at[name]].quantity
+            is_other = f": it is {MEASURED[what]}{_usable(what, [column])}" if what else ""
             if unit == "-":
-                return f"{name} is a pure number, got the unit {short(written)!r}"
-            way_out = f"write {column.example}"
-            if not column.needed:
-                way_out += f'; if it is no {name}, columns={{"{name}": ""}} leaves it out'
-            return f"the unit {short(written)!r} of {name} is none of {listed(unit)}; {way_out}"
+                return f"{name} is a pure number, got the unit {short(written)!r}{is_other}"
+            way_out = f'columns={{{repr_of(name)}: ""}} leaves it out' if not column.needed else ""
+            if not is_unit(written):
+                way_out = f"{way_out}{way_out and ', '}units={{{repr_of(name)}: ...}} says which it is"
+            ways = f"; {way_out}" if way_out else ""
+            return f"the unit {short(written)!r} of {name} is none of {listed(unit)}{is_other}{ways}"
         if written and given is not None and scale_of(written, unit) != scale_of(given, unit):
             return f"the header gives {name} in {written}, units= in {given}; give one"
         if self._lacks_unit(column):
-            return f"{name} needs a unit in its header, one of {listed(unit)}: {column.example}"
+            way_out = "" if column.needed else f'; columns={{{repr_of(name)}: ""}} leaves it out'
+            return f"{name} needs a unit in its header, one of {listed(unit)}{way_out}"
         return ""
 
 
-def _dict(said: Mapping[str, str | int]) -> str:
-    """A dict as it is typed."""
-    words = {name: f'"{short(one)}"' if isinstance(one, str) and one != "..." else one for name, one in said.items()}
-    inner = ", ".join(f'"{name}": {word}' for name, word in words.items())
-    return f"{{{inner}}}"
+def _usable(quantity: str, wanted: Sequence[Column]) -> str:
+    """What makes a quantity one of the columns that are wanted."""
+    ways = (f", {USABLE[quantity, one.unit]}" for one in wanted if USABLE.get((quantity, one.unit)))
+    return next(ways, ", which needs the sensitivity of its sensor" if quantity == "V" else "")
+
+
+def repr_of(said: str | int) -> str:
+    """A word or a number as it is typed in Python."""
+    if not isinstance(said, str):
+        return str(said)
+    return repr(said) if '"' in said or "\\" in said or not said.isprintable() else f'"{said}"'
 
 
 def fault(where: str, what: str) -> ValueError:
@@ -313,12 +429,15 @@ def _spelling(own: str, names: Sequence[str]) -> int | None:
     kept, plain = {_plain(one) for one in names}, _plain(own)
     if plain in kept:
         return 1
-    if plain.casefold() not in {one.casefold() for one in kept}:
+    if not plain or plain.casefold() not in {one.casefold() for one in kept}:
         return None
     return 2 if len(plain) > 1 else 3
 
 
+_SAME = str.maketrans({"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "µ": "μ"} | dict.fromkeys("_ -.()[]", ""))
+
+
+@lru_cache(maxsize=2**12)
 def _plain(name: str) -> str:
     """A name without what does not matter in it, but for the case."""
-    same = {"′": "'", "″": "''", "´": "'", '"': "''", "’": "'", "_": "", " ": "", "-": "", ".": "", "µ": "μ"}
-    return "".join(same.get(letter, letter) for letter in name)
+    return name.translate(_SAME)

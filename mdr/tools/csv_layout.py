@@ -1,23 +1,34 @@
-"""Where the table stands in a text: lines above it, a header, a row of units, rows of numbers, and what cuts cells.
+"""A text as tables: its lines, the separator that cuts them into cells, rows of numbers and the words above them.
 
-Nothing of it needs to be said: rows are the lines whose cells are mostly numbers, alike in count; the header and a row
-of units stand right above them. A first line such as `sep=;` of Excel names the separator. A header may be a comment.
+Rows are the lines whose cells are mostly numbers. Rows that follow one another are one table; so are those between which
+a line has numbers and words: it is a row with a fault, and nothing between two rows is passed over. Words alone
+part two tables. A first line such as `sep=;` of Excel names the separator. Names and units of columns may stand in
+comments.
 """
 
 from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
+import numpy as np
+
+from mdr.tools.arrays import Array
 from mdr.tools.notation import is_unit
 
 SEPARATORS = ("\t", ";", "|", ",", " ")  #: " " is any run of blanks
-SEARCHED = 300  #: lines in which a header is looked for
+SEARCHED = 1000  #: lines that tell the separator
+FAR = 200  #: lines that tell of a table: rows, and words above lines such as "Rate, 1000"
 _DIGITS = r"\d{1,3}(?:[.,'’]\d{3})+(?:[.,]\d+)?|\d+[.,]?\d*|[.,]\d+"  # with or without separators of thousands
 _NUMBER = re.compile(rf"[+−-]?(?:{_DIGITS})(?:e[+-]?\d+)?|[+-]?inf(?:inity)?|∞|nan", re.IGNORECASE)
+_KEYED = re.compile(r"[\s#%]*(?P<key>\w[\w ]*?)\s*[:=]\s*(?P<cells>.+)")  # "# units: m N m"
+_LETTER = re.compile(r"[^\W\d]|[°µμ%]")
+_UNITS = re.compile(r"\bunits?\b|[\W_]units?(?![a-z])", re.IGNORECASE)  #: in the key of a line of units
 
 
 class Line(NamedTuple):
@@ -32,23 +43,84 @@ class Line(NamedTuple):
         return self.text.lstrip().startswith("#")
 
 
-class Layout(NamedTuple):
-    """A way to read the text."""
+class Names(NamedTuple):
+    """Cells that may name the columns, and those that may be their units."""
+
+    line: Line | None
+    cells: list[str]
+    units: list[str]
+
+
+@dataclass
+class Block:
+    """A table: rows, and what stands above them."""
 
     separator: str
-    heads: list[str]  #: cells of the header, none where there is no header
-    below: list[str]  #: cells of a row of units, none where there is no such row
-    lines: list[Line]  #: from the header, or the first row, on
-    first: int  #: place of the first row among these
+    above: list[Line]  #: words, down from the table before
+    rows: list[Line] = field(default_factory=list)
+    remarks: list[Line] = field(default_factory=list)  #: comments between its rows
+    beyond: list[Line] = field(default_factory=list)  #: words farther up, above lines such as "Rate, 1000"
+    named: Block | None = None  #: the table before whose header is its, as it has none and is as wide
+    widths: Counter[int] = field(default_factory=Counter)  #: cells of its rows
+    numbers: Array | None = None  #: those of all its cells, where they were read at once
 
     @property
-    def rows(self) -> list[Line]:
-        """The lines below the header."""
-        return [line for line in self.lines[self.first :] if not line.is_comment]
+    def width(self) -> int:
+        """Cells of most rows."""
+        return self.widths.most_common(1)[0][0]
+
+    @property
+    def is_table(self) -> bool:
+        """Whether it has two columns of numbers, and is more than a line such as "Range, -1, 1"."""
+        numbers = [is_like_number(cell) for cell in self.cells(self.rows[0]) if cell]
+        return sum(numbers) > 1 and (numbers[0] or len(self.rows) > 2)
+
+    @property
+    def title(self) -> str:
+        """Words above its header."""
+        words = [one.text.strip(" #%\t;,") for one in self.above if len(self.heads(one)) < max(self.width, 2)]
+        return words[-1] if words else ""
 
     def cells(self, line: Line) -> list[str]:
         """The cells of a row."""
         return cells_of(line.text, self.separator)
+
+    def heads(self, line: Line, text: str = "") -> list[str]:
+        """The cells of a line above: as many as the rows have, if it can be cut so; else by signs if not by blanks."""
+        text = re.sub(r"^\s*[#%]+\s*", "", text or line.text).strip(" ")
+        own = cells_of(text, self.separator)
+        cuts = [own, *(cells_of(text, one) for one in SEPARATORS[:-1])]
+        cuts += [re.split(one, text) for one in (r"\s{2,}", r"\s+(?![\[(])")] + [cells_of(text, " ")]
+        alike = next((cells for cells in cuts if len(cells) == self.width), None)
+        return alike or (own if self.separator != " " else max(cuts[1 : len(SEPARATORS)], key=len))
+
+    def names(self) -> Iterator[Names]:
+        """What may be its header, the nearest first."""
+        told = next(filter(None, map(self._told_units, reversed([*self.beyond, *self.above]))), [])
+        cut = [(line, self.heads(line)) for line in self.above[-8:] if _LETTER.search(line.text)]
+        of_units = [cells if _are_units(cells := [_bare(cell) for cell in heads]) else [] for _, heads in cut]
+        for i in sorted(range(len(cut)), key=lambda i: (bool(of_units[i]), -i)):
+            units = next(filter(None, [*of_units[i + 1 :], *of_units[max(i - 1, 0) : i]]), told)
+            yield Names(*cut[i], [] if of_units[i] else units)
+        for line in [*self.beyond, *self.above]:
+            if (cells := self._keyed(line)) and len(cells) > 1 and not self._told_units(line):
+                yield Names(line, cells, told)
+        yield Names(None, [], told)
+
+    def _keyed(self, line: Line) -> list[str]:
+        """The cells behind a key, as in "# columns: a b", if they are as many as those of the rows."""
+        keyed = _KEYED.fullmatch(line.text)
+        cells = self.heads(line, keyed["cells"]) if keyed else []
+        return cells if len(cells) == self.width else []
+
+    def _told_units(self, line: Line) -> list[str]:
+        """The units in a line whose first word says that they are."""
+        key, cells = re.split(r"[:=\t;,]", line.text, maxsplit=1)[0], self._keyed(line)
+        if not _UNITS.search(key):
+            return []
+        own = [_bare(cell) for cell in cells_of(line.text, self.separator)]
+        behind = own[1:] if len(own) > self.width else ["", *own[1:]]
+        return next((found for found in (cells, behind) if any(map(is_unit, found))), [])
 
 
 def lines_of(text: str, skip: int | None) -> list[Line]:
@@ -63,67 +135,85 @@ def told_separator(text: str) -> str:
     return told[1] if told else ""
 
 
-def layouts(lines: Sequence[Line], told: str, skip: int | None) -> Iterator[Layout]:
-    """The ways to read the lines in which something stands above a row of numbers, as a header does."""
-    for separator in told or SEPARATORS:
-        cut = [cells_of(line.text, separator) for line in lines[: SEARCHED + 3]]
-        for i in range(len(cut) if skip is None else 1):
-            # a row of units, and one of remarks, may stand between
-            ends = [j for j in range(i + 1, min(i + 4, len(cut))) if is_row(cut[j]) and not lines[j].is_comment]
-            if ends and not is_row(cut[i]):
-                yield _layout(lines, separator, i, ends[0])
+def blocks(lines: Iterable[Line], separator: str) -> list[Block]:
+    """The tables of a text that is cut so."""
+    found: list[Block] = []
+    words: list[Line] = []
+    for line in lines:
+        cells = cells_of(line.text, separator)
+        if not is_row(cells) or line.is_comment:
+            words.append(line)
+            continue
+        if not found or (words and _part(words, found[-1])):
+            found.append(_below(found[-1] if found else None, Block(separator, words), len(cells)))
+        elif words:
+            found[-1].rows += [one for one in words if not one.is_comment]
+            found[-1].remarks += [one for one in words if one.is_comment]
+        words = []
+        found[-1].rows.append(line)
+        found[-1].widths[len(cells)] += 1
+    return found
 
 
-def likely(lines: Sequence[Line], told: str) -> Iterator[tuple[Layout, tuple[float, int]]]:
-    """For each separator the longest run of alike rows, with what stands above; the share and the count of numbers."""
-    for separator in told or SEPARATORS:
-        cut = [[] if one.is_comment else cells_of(one.text, separator) for one in lines[:SEARCHED]]
-        best, place = (0.0, 0), 0
-        for start in (i for i, cells in enumerate(cut) if is_row(cells) and not (i and _alike(cut[i - 1], cells))):
-            end = next((j for j in range(start + 1, len(cut)) if not _alike(cut[start], cut[j])), len(cut))
-            numbers = [is_like_number(cell) for cells in cut[start:end] for cell in cells if cell]
-            best, place = max((best, place), ((sum(numbers) / len(numbers), sum(numbers)), start))
-        if best[1]:
-            yield _below(lines, separator, place), best
+def numbers_at_once(lines: Sequence[Line], separator: str) -> Array | None:
+    """The numbers of lines that hold nothing else, in equal count; None for others."""
+    texts = [line.text for line in lines]
+    if separator != "," and any("," in text for text in texts[:1]):
+        if any("." in text for text in texts):
+            return None
+        texts = [text.replace(",", ".") for text in texts]  # decimal commas
+    with suppress(ValueError):
+        found = np.loadtxt(texts, delimiter=separator.strip(" ") or None, comments=None, quotechar='"', ndmin=2)
+        return found if np.all(np.isfinite(found)) else None
+    return None
 
 
-def _below(lines: Sequence[Line], separator: str, start: int) -> Layout:
-    """The way to read of which the first row is known: a header, or a header and a row of units, stands above it."""
-    above = [i for i in range(max(start - 2, 0), start) if not is_row(cells_of(lines[i].text, separator))]
-    width = len(cells_of(lines[start].text, separator))
-    if len(above) == 2 and not any(map(is_unit, _units(lines[above[1]], separator, width))):
-        above = above[1:]
-    return _layout(lines, separator, above[0] if above and above[-1] == start - 1 else start, start)
+def _below(before: Block | None, block: Block, width: int) -> Block:
+    """A table that begins below another, with what it has from there."""
+    if before is not None:
+        block.beyond = [] if before.is_table else [*before.beyond, *before.above][-FAR:]
+        block.widths[width] += 1
+        if before.width == width and not any(
+            len(block.heads(line)) == width for line in block.above if _LETTER.search(line.text)
+        ):
+            block.named = before.named or before
+        block.widths.clear()
+    return block
 
 
-def _layout(lines: Sequence[Line], separator: str, header: int, first: int) -> Layout:
-    """The way to read that has its header and its first row there."""
-    width = len(cells_of(lines[first].text, separator))
-    heads = _heads(lines[header], separator, width) if header < first else []
-    between = [_units(line, separator, width) for line in lines[header + 1 : first]]
-    whole = [cells for cells in between if separator != " " or len(cells) == width]
-    below: list[str] = next((cells for cells in whole if any(map(is_unit, cells))), [])
-    return Layout(separator, heads, below, list(lines[header:]), first - header)
+def share_of_numbers(block: Block) -> tuple[float, int]:
+    """The share of numbers in the cells of its rows that are as wide as most, and their count."""
+    width = block.width
+    cut = [cells for line in block.rows[:FAR] if len(cells := block.cells(line)) == width]
+    numbers = [is_like_number(cell) for cells in cut for cell in cells if cell]
+    return sum(numbers) / max(len(numbers), 1), sum(numbers)
 
 
-def _heads(line: Line, separator: str, width: int) -> list[str]:
-    """The cells of a header; above rows cut by blanks as many as these have, however they are cut, or one."""
-    text = line.text.lstrip(" #%")
-    if separator != " ":
-        return cells_of(text, separator)
-    cuts = [cells_of(text, one) for one in SEPARATORS[:-1]]
-    cuts += [re.split(one, text.strip()) for one in (r"\s{2,}", r"\s+(?![\[(])", r"\s+")]
-    cuts += [text.partition(":")[2].split()]  # columns: a b
-    return next((cells for cells in cuts if len(cells) == width), [text.strip()])
+def _part(words: Sequence[Line], block: Block) -> bool:
+    """Whether words between two rows part them: a line without a number, or a comment that stands above the first."""
+    above = {one.text for one in block.above if one.is_comment}
+    return any(one.text in above if one.is_comment else not any(map(is_like_number, block.cells(one))) for one in words)
 
 
-def _units(line: Line, separator: str, width: int) -> list[str]:
-    """The cells of a row of units, without brackets."""
-    return [cell.strip(" []()") for cell in _heads(line, separator, width)]
+def _bare(cell: str) -> str:
+    return cell.strip(" []()/\t\"'<>")
+
+
+def same_units(cells: Sequence[str], units: Sequence[str]) -> bool:
+    """Whether the cells of a line are these units."""
+    return [_bare(cell) for cell in cells] == list(units)
+
+
+def _are_units(cells: Sequence[str]) -> bool:
+    """Whether half of the cells, or more, are units."""
+    full = [cell for cell in cells if cell]
+    return 0 < len(full) <= 2 * sum(map(is_unit, full))
 
 
 def is_row(cells: Sequence[str]) -> bool:
     """Whether half of the cells, or more, are numbers."""
+    with suppress(ValueError):
+        return bool(list(map(float, cells)))
     full = [cell for cell in cells if cell.strip()]
     return 0 < len(full) <= 2 * sum(map(is_like_number, full))
 
@@ -133,26 +223,67 @@ def is_like_number(cell: str) -> bool:
     return bool(_NUMBER.fullmatch(cell.strip()))
 
 
-def _alike(cells: Sequence[str], others: Sequence[str]) -> bool:
-    return len(cells) == len(others) and is_row(cells) and is_row(others)
-
-
 def cells_of(line: str, separator: str) -> list[str]:
     """The cells of one line; a quote that is left open ends with it."""
-    if separator == " ":
-        return line.split()
     if '"' in line:
         with suppress(csv.Error):  # a cell of more letters than csv takes
-            return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+            cells = next(csv.reader([line.strip()], delimiter=separator, skipinitialspace=True), [])
+            return [cell for cell in cells if cell] if separator == " " else cells
+    if separator == " ":
+        return line.split()
     return [cell.strip() for cell in line.split(separator)] if line else []
 
 
+#: letters of units in the tables of letters of other countries, and what a table is called
+_CODINGS = {"cp1252": "Latin-1", "shift_jis": "Shift-JIS", "gbk": "GBK"}
+#: first bytes of files that are no text, and what to do
+_KINDS = {
+    b"PK\x03\x04": "an Excel workbook, or another zip archive: save the sheet as CSV",
+    b"\xd0\xcf\x11\xe0": "an Excel workbook: save the sheet as CSV",
+    b"MATLAB 5.0": "a MATLAB file: write its columns as CSV, with writematrix or numpy.savetxt",
+    b"\x89HDF": "an HDF5 or MATLAB file: write its columns as CSV, with writematrix or numpy.savetxt",
+    b"CDF\x01": "a netCDF file: write its columns as CSV",
+    b"\x93NUMPY": "a NumPy array: write it with numpy.savetxt and a header",
+    b"RIFF": "a sound file (WAV): write its samples as CSV, and give rate=",
+    b"TDSm": "a LabVIEW TDMS file: export it as text or CSV",
+    b"\x1f\x8b": "a gzip archive: unpack it",
+    b"BZh": "a bzip2 archive: unpack it",
+    b"7z\xbc\xaf": "a 7-Zip archive: unpack it",
+    b"%PDF": "a PDF: type its table as CSV, or ask for the data",
+    b"\x89PNG": "an image: give the numbers behind it as CSV",
+    b"\xff\xd8\xff": "an image: give the numbers behind it as CSV",
+    b"GIF8": "an image: give the numbers behind it as CSV",
+    b"II*\x00": "an image: export its heights as CSV",
+    b"MM\x00*": "an image: export its heights as CSV",
+    b"PAR1": "a Parquet file: write it as CSV",
+    b"{\\rtf": "a document: save it as plain text",
+    **dict.fromkeys(
+        (b"<html", b"<HTML", b"<?xml", b"<!DOC", b"<table"), "a page of HTML or XML: save its sheet as CSV"
+    ),
+}
+
+
+def kind_of(data: bytes) -> str:
+    """What a file is that is no text, by its first bytes, and what to do; empty for a text."""
+    known = next((kind for first, kind in _KINDS.items() if data.lstrip(b"\xef\xbb\xbf \r\n").startswith(first)), "")
+    if known or b"\0" not in data or data[:2] in (b"\xff\xfe", b"\xfe\xff") or _is_utf_16(data):
+        return known
+    return f"no text, it has a zero byte at {data.index(0)}: export it as text or CSV"
+
+
+def _is_utf_16(data: bytes) -> bool:
+    return len(data) > 3 and not any(data[1:200:2]) and all(data[:200:2])
+
+
 def decoded(data: bytes) -> tuple[str, str]:
-    """The text of a file, and what was guessed of its letters: UTF-8, UTF-16, or else Latin-1."""
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", "replace"), ""
+    """The text of a file, and what was guessed of its letters where they are neither UTF-8 nor UTF-16."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or _is_utf_16(data):
+        return data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-16-le", "replace"), ""
     try:
         return data.decode("utf-8-sig"), ""
     except UnicodeDecodeError as wrong:
-        line = data.count(b"\n", 0, wrong.start) + 1
-        return data.decode("cp1252", "replace"), f"line {line} is not UTF-8: letters are read as Latin-1"
+        first, line = wrong.start, data.count(b"\n", 0, wrong.start) + 1
+    near = data[max(first - 2000, 0) : first + 2000]
+    units = {coding: sum(near.decode(coding, "ignore").count(one) for one in "µμ°²Åδω·") for coding in _CODINGS}
+    coding = max(units, key=units.__getitem__)
+    return data.decode(coding, "replace"), f"line {line} is not UTF-8: letters are read as {_CODINGS[coding]}"

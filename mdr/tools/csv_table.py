@@ -7,14 +7,16 @@
 
 A header names the columns, each with its unit in brackets (`csv_header`); lines above it, the separator and a row of
 units are found (`csv_layout`), and a decimal comma where no number can be read otherwise. Columns may stand in any
-order, beside others. What is wrong is told all at once, with the first lines as read and what to give with the file.
+order, beside others. Of several tables one must have them, or be chosen. What is wrong is told all at once, with the first lines as read and what to give with the file.
 """
 
 from __future__ import annotations
 
 import csv
 import math
+from bisect import bisect
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -24,9 +26,23 @@ import numpy as np
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import count
-from mdr.tools.csv_header import Column, Header, Place, fault
-from mdr.tools.csv_layout import Layout, Line, is_like_number, layouts, likely, lines_of, told_separator
+from mdr.tools.csv_header import Column, Header, Place, fault, repr_of
+from mdr.tools.csv_layout import (
+    SEARCHED,
+    SEPARATORS,
+    Block,
+    Line,
+    Names,
+    blocks,
+    is_like_number,
+    lines_of,
+    numbers_at_once,
+    same_units,
+    share_of_numbers,
+    told_separator,
+)
 from mdr.tools.messages import MOST_TOLD, one_line, short
+from mdr.tools.progress import progress
 from mdr.tools.notation import converted, decimal_mark, number_in, shown, with_point
 from mdr.tools.warned import warn_outside
 
@@ -98,7 +114,36 @@ class Table(NamedTuple):
     def lacks(self, what: str, example: str, *wanted: str) -> ValueError:
         """The error of a header that names none of several columns; a file that has them all would be read so."""
         more = [one for one in self.header.columns if one.name in wanted]
-        return _refusal(self.source, [f"the header names {what}; write {example}"], self.first_lines, self.header, more)
+        named = f"the header names {what}; write {example}{self.header.others(more)}"
+        return _refusal(self.source, [named], self.first_lines, self.header, more)
+
+
+class Found(NamedTuple):
+    """A table with the header that fits it best."""
+
+    block: Block
+    names: Names
+    header: Header
+    is_whole: bool  #: whether all that is needed is there, with numbers below
+
+    @property
+    def fits(self) -> tuple[int, ...]:
+        """How well the header fits what is looked for."""
+        aligned = len(self.names.cells) == self.block.width
+        sound, table = not self.header.faults, self.block.is_table
+        return self.is_whole, sound, table, aligned, len(self.header.at), -len(self.header.faults)
+
+    @property
+    def rank(self) -> tuple[float, ...]:
+        """The same, and whether its cells are numbers."""
+        return *self.fits, *share_of_numbers(self.block)
+
+    @property
+    def told(self) -> str:
+        """Where it stands, below which words."""
+        title = self.block.title
+        below = f', below "{short(title)}"' if title else ""
+        return f"lines {self.block.rows[0].number} to {self.block.rows[-1].number}{below}"
 
 
 def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading, said: str = "") -> Table:
@@ -110,23 +155,23 @@ def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading
     _require_known("units", reading.units, names, (str,))
     _require_known("columns", reading.columns, names, (str, int))
     skip = None if reading.skip is None else count("skip", reading.skip, 0)
-    layout, header = _layout_of(text, source, columns, reading._replace(skip=skip))
-    first_lines = _as_read(layout)
+    lines = lines_of(text, skip)
+    found = _found_in(lines, told_separator(text), source, columns, reading)
+    chosen = _chosen(found, source, reading.table)
+    block, header = chosen.block, chosen.header
+    first_lines = _as_read(chosen)
     if header.faults:
         raise _refusal(source, header.faults, first_lines, header)
-    rows, left_out = _without_footer(layout)
-    cells, faults = _cells_of(rows, layout, header, source)
-    mark, wrong = decimal_mark([cell for one in cells.values() for cell in one])
-    faults = [*faults, *([f"{source}: {wrong}"] if wrong else [])]
-    values = {}
-    for place in header.places:
-        values[place.column.name] = _numbers(cells[place.column.name], place.column, mark, rows, source, faults)
+    if (more := len(chosen.names.cells) - block.width) > 0 and block.separator == " ":
+        header.said.append(f"rows have {block.width} cells, the header {more} more, which are taken for the last")
+    values, faults = _values_of(chosen, source)
     if faults:
         raise ValueError("\n".join(_first(faults, source)))
-    if guesses := [*filter(None, [said]), *header.said, *filter(None, [left_out])]:
+    left = _left_out(found, chosen, lines) if reading.table is None else ""
+    if guesses := [*filter(None, [said]), *header.said, *filter(None, [left])]:
         warn_outside(one_line(f"{source}: {'; '.join(guesses)}"))
     scaled = {place.column.name: _scaled(values[place.column.name], place) for place in header.places}
-    return Table(source, scaled, tuple(row.number for row in rows), header, text, first_lines)
+    return Table(source, scaled, tuple(row.number for row in block.rows), header, text, first_lines)
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:
@@ -137,58 +182,124 @@ def csv_text(columns: Mapping[str, Any]) -> str:
     return out.getvalue()
 
 
-# --- lines ---
+# --- tables ---
+
+MOST_ABOVE = 10_000  #: letters above a table in which words may tell of it
 
 
-def _layout_of(text: str, source: str, columns: Sequence[Column], reading: Reading) -> tuple[Layout, Header]:
-    """Where the table stands: where a header names what is needed, above numbers; else where most numbers are."""
-    lines, told, called = lines_of(text, reading.skip), told_separator(text), reading.columns or {}
-
-    def header_of(layout: Layout) -> Header:
-        width = max(len(layout.heads), *(len(layout.cells(row)) for row in layout.rows[:1]))
-        heads = [*layout.heads, *[""] * (width - len(layout.heads))]
-        return Header(heads, layout.below, columns, reading.units or {}, called)
-
-    numbered = bool(called) and all(str(one).isdigit() for one in called.values())
-    if not numbered:
-        for layout in layouts(lines, told, reading.skip):
-            header = header_of(layout)
-            if not header.faults and not header.said and _holds(layout, header):
-                return layout, header
-    found = [(layout, header_of(layout), score) for layout, score in likely(lines, told)]
-    if not found:
+def _found_in(
+    lines: Sequence[Line], told: str, source: str, columns: Sequence[Column], reading: Reading
+) -> list[Found]:
+    """The tables, cut by the separator with which one fits best."""
+    best: tuple[Any, str] | None = None
+    for part in (lines[:SEARCHED], lines) if len(lines) > SEARCHED else (lines,):
+        for separator in told or SEPARATORS:
+            ranks = [one.rank for one in _with_headers(blocks(part, separator), columns, reading)]
+            if ranks and (best is None or max(ranks) > best[0]):
+                best = max(ranks), separator
+        if best is not None and any(best[0][:3]):  # all is there, or a table
+            break
+    if best is None:
         example = ", ".join(one.example for one in columns if one.needed)
         raise fault(source, f"holds no table; a header such as {example}, and a row a measurement")
-    layout, header, _ = max(found, key=lambda one: (len(one[1].at), -len(one[1].faults), one[2]))
-    if numbered and len(layout.heads) < len(layout.cells(layout.rows[0])):
-        layout = layout._replace(heads=[], below=[], lines=layout.lines[layout.first :], first=0)
-    return layout, header_of(layout)
+    found = _with_headers(_cut(lines, best[1], source), columns, reading)
+    return [one for one in found if one.is_whole or one.block.is_table] or [max(found, key=lambda one: one.rank)]
 
 
-def _holds(layout: Layout, header: Header) -> bool:
+def _cut(lines: Sequence[Line], separator: str, source: str) -> list[Block]:
+    """The tables of all lines, at once where the last one goes on to the end as it begins."""
+    if len(lines) > SEARCHED and (tables := blocks(lines[:SEARCHED], separator)):
+        last = tables[-1]
+        rows = lines[lines.index(last.rows[0]) :]
+        last.numbers = numbers_at_once(rows, separator)
+        if last.numbers is not None and last.numbers.shape[1] == last.width:
+            last.rows = rows
+            return tables
+    return blocks(progress(lines, f"reading {source}", "lines"), separator)
+
+
+def _with_headers(tables: Sequence[Block], columns: Sequence[Column], reading: Reading) -> list[Found]:
+    """The tables, each with the best of the headers that it may have."""
+    found: dict[int, Found] = {}
+    above = ""
+    for block in tables:
+        above = " ".join([above, *(line.text for line in block.above)])[-MOST_ABOVE:]
+        row, of = block.cells(block.rows[0]), found.get(id(block.named))
+        ways = [of.names] if of else block.names()
+        tried = [_with_header(block, names, row, columns, reading, above) for names in ways]
+        best = max(tried, key=lambda one: (*one.fits[:2], *one.fits[4:]))
+        found[id(block)] = best
+    return list(found.values())
+
+
+def _with_header(
+    block: Block, names: Names, row: Sequence[str], columns: Sequence[Column], reading: Reading, above: str
+) -> Found:
+    """A table with one header."""
+    heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
+    header = Header(heads, names.units, columns, reading.units or {}, reading.columns or {}, above)
+    for line in block.above if names.line is not None else ():
+        cells = block.heads(line)
+        if line.number > names.line.number and not line.is_comment and not same_units(cells, names.units):
+            if any(map(is_like_number, block.cells(line))):
+                header.faults.append(f"line {line.number}, {short(line.text)}, between header and rows is no row")
+            elif any(map(str.isalnum, line.text)):
+                header.said.append(f"line {line.number}, {short(line.text)}, between header and rows is left out")
+    return Found(block, names, header, not header.faults and _holds(row, header))
+
+
+def _holds(row: Sequence[str], header: Header) -> bool:
     """Whether the first row has a number for each column."""
-    row = layout.cells(layout.rows[0])
     cells = [(place.column, row[place.at] if place.at < len(row) else "") for place in header.places]
     return bool(cells) and all(
         is_like_number(cell) or (column.empty is not None and not cell.strip()) for column, cell in cells
     )
 
 
-def _without_footer(layout: Layout) -> tuple[list[Line], str]:
-    """The rows without what stands below them, and what was left out."""
-    rows = layout.rows
-    end = next(
-        (k for k in range(len(rows), 0, -1) if any(is_like_number(cell) for cell in layout.cells(rows[k - 1]))), 0
+def _chosen(found: Sequence[Found], source: str, table: int | str | None) -> Found:
+    """The table that is named, or the only one that has what is needed."""
+    whole = [one for one in found if one.is_whole]
+    if table is None:
+        if len(whole) < 2:
+            return max(found, key=lambda one: one.rank)
+        taken = whole
+    elif isinstance(table, str):
+        taken = [one for one in found if any(table.casefold() in line.text.casefold() for line in one.block.above)]
+    else:
+        taken = [found[count("table", table, 1) - 1]] if table <= len(found) else []
+    if len(taken) == 1:
+        return taken[0]
+    numbers = [k for k, one in enumerate(found, start=1) if table is not None or one.is_whole]
+    what = "holds" if table is None else f"table={repr_of(table)} names {'several' if taken else 'none'} of"
+    all_told = "; ".join(f"table={k}, {found[k - 1].told}" for k in numbers[:MOST_TOLD])
+    more = f"; and {len(numbers) - MOST_TOLD} more" if len(numbers) > MOST_TOLD else ""
+    raise ValueError(
+        f"{one_line(f'{source}: {what} {len(numbers)} tables, choose one: {all_told}{more}')}\n"
+        f"  to read it as it is: table=..."
     )
-    words = f"line {rows[end].number}, {short(rows[end].text)}, and what follows is left out" if end < len(rows) else ""
-    return rows[:end], words
 
 
-def _as_read(layout: Layout) -> str:
-    """The lines down to the first row and one more, cells between bars."""
-    above = layout.lines[: layout.first]
-    cells = [(line, layout.heads if line is above[0] else layout.cells(line)) for line in above]
-    cells += [(line, layout.cells(line)) for line in layout.rows[:2]]
+def _left_out(found: Sequence[Found], chosen: Found, lines: Sequence[Line]) -> str:
+    """Lines that are not read, though they have numbers or stand below the table."""
+    place = found.index(chosen)
+    said = [f"{one.told}, are another table and left out" for one in found[:place] if one.block.is_table]
+    if remarks := chosen.block.remarks:
+        more = f" and {len(remarks) - 1} more" if len(remarks) > 1 else ""
+        said.append(f"line {remarks[0].number}, {short(remarks[0].text)},{more} is a comment and left out")
+    if chosen.block.rows[-1].number < lines[-1].number:
+        below = lines[bisect(lines, chosen.block.rows[-1])]
+        said.append(f"line {below.number}, {short(below.text)}, and what follows is left out")
+    return "; ".join(said)
+
+
+def _as_read(found: Found) -> str:
+    """The header, what stands below it, the first row and one more, cells between bars."""
+    block, header = found.block, found.names.line
+    above = [line for line in block.above if header is not None and line.number >= header.number][:3]
+    cells = [(line, found.names.cells if line is header else block.heads(line)) for line in above]
+    if header is not None and header not in above:
+        cells.insert(0, (header, found.names.cells))
+    cells += [(line, block.cells(line)) for line in block.rows[:2]]
     return "\n".join(f"  {one_line(f'line {line.number}: ' + ' | '.join(row), 120)}" for line, row in cells)
 
 
@@ -241,34 +352,54 @@ def _require_known(name: str, given: Mapping[str, Any] | None, known: Sequence[s
         raise ValueError(f"{name}: {short(str(strange[0]))} is no column; there are {', '.join(known)}")
 
 
-def _cells_of(
-    rows: Sequence[Line], layout: Layout, header: Header, source: str
-) -> tuple[dict[str, list[str]], list[str]]:
-    """The cells of each column, and what is wrong with rows that are too long."""
-    found: dict[str, list[str]] = {place.column.name: [] for place in header.places}
-    faults, width = [], len(layout.heads) or math.inf
-    for line in rows:
-        row = layout.cells(line)
-        if len(row) > width and any(cell.strip() for cell in row[len(layout.heads) :]):
-            what = f"has {len(row)} cells, the header {width}; if a comma is the decimal mark, separate them by ;"
-            faults.append(f"{source}: line {line.number}: {what}")
-        for place in header.places:
-            found[place.column.name].append(row[place.at] if place.at < len(row) else "")
-    return found, faults
+def _values_of(found: Found, source: str) -> tuple[dict[str, Sequence[float] | Array], list[str]]:
+    """The numbers of each column, and what is wrong with cells and rows."""
+    block, places = found.block, found.header.places
+    heads = len(found.names.cells)
+    while heads and not found.names.cells[heads - 1]:
+        heads -= 1
+    numbered = all(str(found.header.called.get(one.column.name)).isdigit() for one in places)
+    exact = block.separator == " "
+    width = block.width if numbered or not heads or (exact and heads > block.width) else heads
+    if block.numbers is not None and width >= block.width:
+        return {one.column.name: block.numbers[:, one.at] for one in places}, []
+    least, whose = min(block.width, heads or block.width), "most rows" if width == block.width else "the header"
+    columns: list[list[str]] = [[] for _ in places]
+    faults = []
+    for line in block.rows:
+        row = block.cells(line)
+        if len(row) < least or (len(row) != width and (exact or any(row[width:]))):
+            more = block.separator == "," and len(row) > width
+            comma = "; if a comma is the decimal mark, separate them by ;" if more else ""
+            faults.append(f"{source}: line {line.number}: has {len(row)} cells, {whose} {width}{comma}")
+        for place, cells in zip(places, columns, strict=True):
+            cells.append(row[place.at] if place.at < len(row) else "")
+    mark, wrong = decimal_mark(cell for cells in columns for cell in cells)
+    faults += [f"{source}: {wrong}"] if wrong else []
+    pairs = zip(places, columns, strict=True)
+    return {
+        one.column.name: _numbers(cells, one.column, mark, block.rows, source, faults) for one, cells in pairs
+    }, faults
 
 
 def _numbers(
     cells: Sequence[str], column: Column, mark: str, rows: Sequence[Line], source: str, faults: list[str]
-) -> list[float]:
+) -> Sequence[float]:
     """The numbers in the cells of a column; NaN for what is none, which is added to the faults."""
-    found = []
-    for cell, row in zip(cells, rows, strict=True):
-        if column.empty is not None and cell.casefold() in ("", "inf", "infinity", "∞"):
-            found.append(column.empty)
-            continue
-        try:
-            found.append(number_in(with_point(cell) if mark == "," else cell))
-        except ValueError as wrong:
-            found.append(math.nan)
-            faults.append(one_line(f"{source}: line {row.number}: {wrong} (column {column.name})"))
-    return found
+    if mark == ",":
+        cells = list(map(with_point, cells))
+    with suppress(ValueError):
+        found = list(map(float, cells))
+        if np.all(np.isfinite(found)) and not any("_" in cell for cell in cells):
+            return found
+    return [_number(cell, column, row, source, faults) for cell, row in zip(cells, rows, strict=True)]
+
+
+def _number(cell: str, column: Column, row: Line, source: str, faults: list[str]) -> float:
+    if column.empty is not None and cell.strip().casefold() in ("", "inf", "infinity", "∞"):
+        return column.empty
+    try:
+        return number_in(cell)
+    except ValueError as wrong:
+        faults.append(one_line(f"{source}: line {row.number}: {wrong} (column {column.name})"))
+        return math.nan

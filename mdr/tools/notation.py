@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from functools import cache, lru_cache
 from typing import Any, TypeVar
 
 from mdr.tools.arrays import EXACT, Array
@@ -41,7 +42,9 @@ UNITS = {
     "N/m": _prefixed("N/m", "kMmµ") | {"N/mm": 1e3, "N/µm": 1e6},
     "N s/m": _prefixed("N s/m", "kmµ") | {"N s/mm": 1e3},
     "1/m": {"1/m": 1.0, "1/mm": 1e3},
+    "N m": _prefixed("N m", "kmµn") | {"N mm": 1e-3},
     "V": _prefixed("V", "mµ"),
+    "Pa s": _prefixed("Pa s", "m"),
     "K": {"K": 1.0} | dict.fromkeys(("degC", "°C", "C"), 1.0),
     "-": dict.fromkeys(("", "-", "1"), 1.0) | {"%": 0.01},
 }  #: how each unit of the library may be written, {unit: {symbol: value in the unit}}
@@ -81,8 +84,12 @@ def is_unit(symbol: str) -> bool:
 
 def scale_of(symbol: str, unit: str) -> float | None:
     """Value of a symbol in a unit of the library; None where it measures something else."""
-    known = {_same(one): value for one, value in UNITS.get(unit, {unit: 1.0}).items()}
-    return known.get(_same(symbol))
+    return _known(unit).get(_same(symbol))
+
+
+@cache
+def _known(unit: str) -> dict[str, float]:
+    return {_same(one): value for one, value in UNITS.get(unit, {unit: 1.0}).items()}
 
 
 def listed(unit: str) -> str:
@@ -137,18 +144,17 @@ def number_in(cell: str) -> float:
     raise ValueError(f"{short(text)} is no number{_instead(text)}" if text else f"the cell is empty{_instead(text)}")
 
 
-def decimal_mark(cells: Sequence[str]) -> tuple[str, str]:
+def decimal_mark(cells: Iterable[str]) -> tuple[str, str]:
     """The decimal mark of numbers in one file, and what is wrong where it cannot be told.
 
     It is a comma if one of them cannot be read otherwise, as 0,5 and 1.234,5 can not. 1,234 alone tells nothing.
     """
-    commas = [one for one in cells if "," in one]
-    if not any(_is_comma_number(one) for one in commas):
+    marked = [one for one in cells if "," in one or "." in one]
+    commas = (one for one in marked if "," in one)
+    if (comma := next((one for one in commas if _is_comma_number(one)), None)) is None:
         return ".", ""
-    points = [one for one in cells if "." in one and "," not in one]
-    if points:
-        return ",", f"{short(commas[0])} and {short(points[0])} stand in one file: write one decimal mark"
-    return ",", ""
+    point = next((one for one in marked if "," not in one), None)
+    return ",", f"{short(comma)} and {short(point)} stand in one file: write one decimal mark" if point else ""
 
 
 def with_point(cell: str) -> str:
@@ -194,10 +200,24 @@ def in_unit(values: T, scale: float) -> T:
     return values / whole if whole and math.isclose(whole * scale, 1, rel_tol=EXACT) else values * scale
 
 
+@lru_cache(maxsize=2**12)
 def _same(symbol: str) -> str:
     """A symbol without what does not matter in it: m/s/s, ms-2, m s⁻² and m/sec^2 are m/s2."""
-    same = {"µ": "u", "μ": "u", "²": "2", "¹": "1", "⁻": "-", "^": "", " ": "", "·": "", "*": "", "\u212b": "\u00c5"}
+    same = {
+        "µ": "u",
+        "μ": "u",
+        "²": "2",
+        "¹": "1",
+        "⁻": "-",
+        "^": "",
+        " ": "",
+        "·": "",
+        ".": "",
+        "*": "",
+        "\u212b": "\u00c5",
+    }
     text = re.sub(r"[^\W\d_]+", lambda word: WORDS.get(word[0].casefold(), word[0]), symbol)
     text = "".join(same.get(letter, letter) for letter in text).replace("/s/s", "/s2")
+    text = re.sub(r"(?<=[a-zA-Z])-(?=[a-zA-Z])", "", text)  # Pa-s
     text = re.sub(r"(?<=.)s-([12])$", lambda power: "/s2" if power[1] == "2" else "/s", text)
     return re.sub(r"^([kMG]?Pa|m?m)-1$", r"1/\1", text)

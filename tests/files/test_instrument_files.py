@@ -81,7 +81,7 @@ READ = {
     "rheometer, units in square brackets below": (
         moduli, "Interval data:\tMeas. Pts.\tAngular Frequency\tStorage Modulus\tLoss Modulus\tDamping Factor\tTorque\n"
         "\t\t[rad/s]\t[Pa]\t[Pa]\t[1]\t[mN·m]\n"
-        "\t1\t6.283185307179586\t3E+6\t3E+5\t0.1\t2\n\t2\t62.83185307179586\t4E+6\t8E+5\t0.2\t2\n", {}, MODULI),
+        f"\t1\t{HZ!r}\t1E+6\t1E+5\t0.1\t2\n\t2\t{10 * HZ!r}\t{4e6 / 3!r}\t{8e5 / 3!r}\t0.2\t2\n", {"nu": 0.5}, MODULI),
     "finite elements, g_i": (arms, "g_i, k_i, tau_i\n0.3, 0.3, 0.01\n0.2, 0.2, 1\n", {"E_0": 2e6}, ARMS),
     "finite elements, words": (
         arms, "Index\tRelative Moduli\tRelaxation Time (s)\n1\t0.3\t0.01\n2\t0.2\t1\n", {"E_0": 2e6}, ARMS),
@@ -134,7 +134,7 @@ READ = {
     "preamble, skipped": (record, "t [ms], a [g]\n5, 6\nt [s], a [g]\n0,1\n", {"skip": 2}, {"t": [0], "a_z": [G]}),
     # moduli, and what follows a step
     "moduli in falling order": (
-        moduli, "frequency (Hz), storage modulus (kPa), tan δ\n10, 4000, 0.2\n1, 3000, 0.1\n", {}, MODULI),
+        moduli, "frequency (Hz), tensile storage modulus (kPa), tan δ\n10, 4000, 0.2\n1, 3000, 0.1\n", {}, MODULI),
     "moduli over rad/s": (
         moduli, f"omega [rad/s], E′ [N/mm²], tan(delta) [-]\n{HZ!r}, 3, 0.1\n{10 * HZ!r}, 4, 0.2\n", {}, MODULI),
     "shear moduli": (
@@ -212,10 +212,10 @@ WITH_A_WORD = {
     "moduli in other words": (
         moduli, "Frequenz [Hz];Speichermodul [MPa];Verlustmodul [MPa]\n1,0;3,0;0,3\n10,0;4,0;0,8\n",
         {"columns": {"storage": "Speichermodul", "loss": "Verlustmodul"}}, MODULI,
-        'columns={"storage": "Speichermodul", "loss": "Verlustmodul"}'),
+        'columns={"storage": ..., "loss": ...}'),
     "surface data without a word": (
         profile, rows(1e3 * RADII, 1e6 * HEIGHTS, by="\t"),
-        {"columns": {"r": 1, "f": 2}, "units": {"r": "mm", "f": "um"}}, SHAPE, 'columns={"r": 1, "f": 2}'),
+        {"columns": {"r": 1, "f": 2}, "units": {"r": "mm", "f": "um"}}, SHAPE, 'columns={"r": ..., "f": ...}'),
     "force microscope, units in names": (
         force, "\\*File list\nRamp size: 80 nm\nCalc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_pN_Ex\tDefl_pN_Rt\n"
         + rows(1e9 * DEPTHS, 1e9 * DEPTHS, 1e12 * FORCES, 1e12 * FORCES, by="\t"),
@@ -250,7 +250,7 @@ REFUSED = [
     (friction, "v, mu\n1, 0.3\n", {}, "v_0 needs a unit in its header, one of m/s, cm/s, mm/s, um/s"),
     (friction, "v [km/h], mu\n1, 0.3\n", {}, "the unit 'km/h' of v_0 is none of m/s"),
     (friction, "v [m/s], v [mm/s], mu\n1, 1, 0.3\n", {}, "the header names v_0 twice"),
-    (record, "t [s], a [mV]\n0, 1\n", {}, "none of m/s2", "write a_z [m/s²]", 'columns={"a_z": ""}'),
+    (record, "t [s], a [mV]\n0, 1\n", {}, "none of m/s2", "a voltage, which needs", 'columns={"a_z": ""}'),
     (record, "t, a\nms, g\n0, 1\n", {"units": {"t": "s", "a_z": "g"}}, "t in ms, units= in s"),
     (record, "Zeit (s);Beschl. Z (g);Beschl. X (g)\n0;1;0\n", {}, '"a_x": "Beschl. X", "a_z": "Beschl. Z"'),
     (record, "t [s], b [V]\n0, 1\n", {},
@@ -260,9 +260,9 @@ REFUSED = [
     (profile, f"r [um], f\n{SCAN}", {"units": {"r": "mm", "f": "nm"}}, "gives r in um, units= in mm; give one"),
     (profile, f"r [um], f\n{SCAN}", {"columns": {"f": "Z"}}, "the header names no Z; columns= must name one of these"),
     (moduli, "f [Hz], E' [mPa], E'' [mPa]\n1, 3, 0.3\n", {}, "'mPa' of storage is none of Pa, kPa, MPa, GPa"),
-    (moduli, "f [Hz], E' [MPa]\n1, 3\n", {}, "neither E'' nor tan delta"),
-    (moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", {}, "need Poisson's ratio, as E = 2 (1 + nu) G"),
-    (relaxation, "t [s], Er [MPa]\n1, 1\n", {}, 'columns={"E": "Er"}'),
+    (moduli, "f [Hz], E' [MPa]\n1, 3\n", {}, "neither loss modulus, tan delta nor phase"),
+    (moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", {}, "needs Poisson's ratio, as E = 2 (1 + nu) G"),
+    (relaxation, "t [s], Er [MPa]\n1, 1\n", {}, 'columns={"E": ...}'),
     (relaxation, "t [s], E [MPa], G [MPa]\n1, 1, 1\n", {}, 'leave one out, columns={"G": ""}'),
     (creep, "t [s], J [1/MPa]\n1, 1\n", {}, "of shear and needs Poisson's ratio: give nu=; if it is one in"),
     # rows
@@ -465,11 +465,11 @@ def test_a_refusal_shows_the_lines_all_faults_and_what_to_give(tmp_path):
         mdr.FromForce.read(path, E_star=1e6, columns={"d": "Ch 1", "F": "Ch 3"})
     assert str(refused.value).replace(str(path), "data.csv").splitlines() == [
         "data.csv: the header names no Ch 3; columns= must name one of these",
-        "data.csv: d needs a unit in its header, one of m, cm, mm, um, nm, Å, inch: d [um]",
+        "data.csv: d needs a unit in its header, one of m, cm, mm, um, nm, Å, inch",
         "  line 2: Time | Ch 1 | Ch 2",
         "  line 3: 0,0 | 0,1 | x",
         "  line 4: 0,1 | 0,2 | y",
-        '  to read it as it is: columns={"d": "Ch 1", "F": ...}, units={"d": "um", "F": "N"}',
+        '  to read it as it is: columns={"d": "Ch 1", "F": ...}, units={"d": ...}',
     ]
     with pytest.raises(ValueError, match=r"line 3: x is .*\n.*line 4: y is no number"):
         mdr.read_record(path, columns={"t": "Time", "a_x": 2, "a_z": 3}, units={"t": "s", "a_x": "g", "a_z": "g"})
