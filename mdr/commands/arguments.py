@@ -80,6 +80,8 @@ def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> N
         command.add_argument(f"--{name}", metavar=f"column={value}", nargs="+", type=read, default=[], help=what)
     skip = "lines above the header of the CSV file (default: it is found)"
     command.add_argument("--skip", metavar="n", type=whole_number(0), help=skip)
+    which, number_or_words = "which table of a file with several, from 1, or words above it", read_as("n", _which)
+    command.add_argument("--table", metavar="n", type=number_or_words, help=which)
     if of_time:
         rate, what = plain_number("Hz", "a frequency such as 1kHz"), "samples a second, in the place of a column t"
         command.add_argument("--rate", metavar="1kHz", type=rate, help=what)
@@ -89,7 +91,7 @@ def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> N
 
 def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
     """What a reader of the library makes of a CSV file; what it says names options in the place of its arguments."""
-    given = {"columns": dict(args.columns), "units": dict(args.units), "skip": args.skip}
+    given = {"columns": dict(args.columns), "units": dict(args.units), "skip": args.skip, "table": args.table}
     if hasattr(args, "rate"):
         of = args.sensitivity
         each = dict(one.split("=", 1) for one in of or () if "=" in one)
@@ -117,6 +119,10 @@ def in_options(message: str, options: Iterable[str]) -> str:
 
     message = re.sub(r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?", pairs, message)
     return re.sub(rf'\b({"|".join(options)})=(\([^()]*\)|"[^"]*"|[\w.+-]*)', option, message)
+
+
+def _which(text: str) -> int | str:
+    return int(text) if text.isdecimal() else text
 
 
 def _pair(text: str) -> tuple[str, str]:

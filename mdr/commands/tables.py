@@ -110,7 +110,7 @@ def material(args: argparse.Namespace, _: None) -> int:
         else:
             reader, fit = SOURCES[args.of]
             at = {"temperature": args.temperature, "wlf": args.wlf} if args.of == "moduli" else {}
-            data = read_file(partial(reader, nu=args.nu, **at), args.measured, args)
+            data = read_file(partial(_sheared, reader, args.nu, **at), args.measured, args)
             found = fit(*data, nu=args.nu, n_arms=args.n_arms)
             missed = found.misfit(*data) if args.of == "moduli" else None
     said = "" if missed is None else f", {100 * missed:.2g} % off the data at most"
@@ -156,3 +156,13 @@ def _table(args: argparse.Namespace, name: str, record: Any, values: dict[str, A
     """Print a table below what there is to say of it."""
     table = write_table(name, record)
     return answer(args, {**values, "table": table}, f"# {said}\n{table}")
+
+
+def _sheared(reader: Any, nu: float, path: str, **given: Any) -> Any:
+    """What a reader makes of a file; Poisson's ratio, which the material has anyway, goes to it of shear alone."""
+    try:
+        return reader(path, **given)
+    except ValueError as refusal:
+        if "give nu=" not in str(refusal):
+            raise
+    return reader(path, nu=nu, **given)

@@ -43,7 +43,7 @@ def from_table(
     name = fsdecode(path)
     if name.lower().endswith(".toml"):
         if any(reading):
-            raise fault(name, "units, columns and skip are those of a CSV table")
+            raise fault(name, "units, columns, skip and table are those of a CSV table")
         return _from_toml(read_text(path), name, {"nu": nu, "E_0": E_0, "G_0": G_0})
     if not name.lower().endswith(".csv"):
         raise fault(name, "a table of arms must end in .csv or .toml")
@@ -64,7 +64,7 @@ def from_table(
 def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     kinds = [one.name for one in MODULI if one.name in table.values]
     if not kinds:
-        raise table.lacks("no E_j", "E_j [MPa], tau_j [s]", "E_j")
+        raise table.lacks("no E_j", "E_j [MPa], tau_j [s], or G_j of shear, or shares g_j", "E_j")
     if len(kinds) > 1:
         raise table.fault(f"{' and '.join(kinds)}: give one")
     (kind,), tau, E = kinds, table.values["tau_j"], table.values[kinds[0]]

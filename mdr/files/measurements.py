@@ -21,7 +21,7 @@ from mdr.materials.base import poisson_ratio
 from mdr.materials.prony_fit import ONE, TOLD, twice
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, positive
-from mdr.tools.csv_header import Column, fault
+from mdr.tools.csv_header import Column, fault, repr_of
 from mdr.tools.csv_layout import decoded, kind_of
 from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
 from mdr.tools.messages import MOST_TOLD
@@ -99,6 +99,7 @@ def read_moduli(
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
+    table: int | str | None = None,
 ) -> DynamicModuli:
     r"""Dynamic moduli [Pa] over frequency from a CSV file, for `Prony.fit`.
 
@@ -122,6 +123,8 @@ def read_moduli(
         master curve, whose frequencies are shifted to one temperature.
     skip : int, optional
         Lines above the header. None finds it.
+    table : int or str, optional
+        Which table of a file with several, from 1, or words above it.
 
     Returns
     -------
@@ -144,34 +147,38 @@ def read_moduli(
     >>> rubber = mdr.Prony.fit(*moduli, nu=0.5)
     """
     wanted = [one._replace(given="nu=") if nu is not None and one in SHEAR else one for one in MODULI]
-    table = read_table(path, wanted, Reading(units, columns, skip))
-    found = table.values
-    storage, loss, kind = _components(table, nu is not None)
+    read = read_table(path, wanted, Reading(units, columns, skip, table))
+    found = read.values
+    storage, loss, kind = _components(read, nu is not None)
     if kind is None:
-        raise table.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa], or G', G'' of shear", "storage", "loss")
+        raise read.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa], or G', G'' of shear", "storage", "loss")
     stretch = 2 * (1 + poisson_ratio("nu", nu)) if kind is SHEAR else 1.0
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
-        require_rows(table, values > 0, f"{name} must be positive")
+        require_rows(read, values > 0, f"{name} must be positive")
     sign = "" if np.any(loss > 0) else "; all are: turn the sign of the column"
-    require_rows(table, loss >= 0, f"loss must not be negative{sign}")
+    require_rows(read, loss >= 0, f"loss must not be negative{sign}")
     if wlf is None:
-        taken = _at_temperature(table, temperature)
+        taken = _at_temperature(read, temperature)
         omega, modulus = found["omega"][taken], stretch * (storage + 1j * loss)[taken]
-        _look_for_repeats(table, taken, omega, modulus, temperature is not None or "T" in (columns or {}))
+        _look_for_repeats(read, taken, omega, modulus, temperature is not None or "T" in (columns or {}))
     else:
-        omega, modulus = found["omega"] * _shift(table, temperature, wlf), stretch * (storage + 1j * loss)
+        omega, modulus = found["omega"] * _shift(read, temperature, wlf), stretch * (storage + 1j * loss)
     order = np.argsort(omega, kind="stable")
     return DynamicModuli(omega[order], modulus.real[order], modulus.imag[order])
 
 
 def _components(table: Table, of_shear: bool) -> tuple[Any, Any, Sequence[Column] | None]:
     """Storage and loss modulus, and which they are, from what the file has of modulus, loss tangent and phase."""
-    found, kinds = table.values, [one for one in (TENSION, SHEAR) if any(column.name in table.values for column in one)]
+    found = table.values
+    kinds = [kind for kind in (TENSION, SHEAR) if any(one.name in found for one in kind)]
     if not kinds:
         return None, None, None
     if len(kinds) > 1:
-        both = " and ".join(next(one.name for one in kind if one.name in found) for kind in kinds)
-        raise table.fault(f'{both}: moduli of tension and of shear; leave one out, columns={{...: ""}}')
+        of_tension, sheared = ([one.name for one in kind if one.name in found] for kind in kinds)
+        without = ", ".join(f'{repr_of(name)}: ""' for name in sheared)
+        raise table.fault(
+            f"{of_tension[0]} and {sheared[0]}: of tension and of shear; columns={{{without}}} leaves one out"
+        )
     (kind,) = kinds
     name = next(one.name for one in kind if one.name in found)
     if of_shear and kind is TENSION:
@@ -193,7 +200,7 @@ def _components(table: Table, of_shear: bool) -> tuple[Any, Any, Sequence[Column
         raise table.lacks("neither loss modulus, tan delta nor phase", "f [Hz], E' [MPa], tan delta", kind[1].name)
     if loss is not None and tangent is not None:
         _require_same(table, loss / storage, tangent)
-    return storage, storage * tangent if loss is None else loss, kind
+    return storage, loss if loss is not None or tangent is None else storage * tangent, kind
 
 
 def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:

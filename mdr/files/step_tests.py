@@ -46,6 +46,7 @@ def read_relaxation(
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
+    table: int | str | None = None,
 ) -> Relaxation:
     r"""Modulus [Pa] over the time since a step of strain, from a CSV file, for `Prony.fit_relaxation`.
 
@@ -61,6 +62,8 @@ def read_relaxation(
         What the header calls a column, {"E": "Er"}, or its number, from 1.
     skip : int, optional
         Lines above the header. None finds it.
+    table : int or str, optional
+        Which table of a file with several, from 1, or words above it.
 
     Returns
     -------
@@ -80,7 +83,7 @@ def read_relaxation(
     >>> mdr.read_relaxation("relaxation.csv").modulus
     array([3000000., 2000000., 1500000.])
     """
-    return Relaxation(*_over_time(path, RELAXATION, nu, Reading(units, columns, skip)))
+    return Relaxation(*_over_time(path, RELAXATION, nu, Reading(units, columns, skip, table)))
 
 
 def read_creep(
@@ -90,6 +93,7 @@ def read_creep(
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
+    table: int | str | None = None,
 ) -> Creep:
     r"""Compliance [1/Pa] over the time since a step of stress, from a CSV file, for `Prony.fit_creep`.
 
@@ -105,6 +109,8 @@ def read_creep(
         What the header calls a column, {"D": "Nachgiebigkeit"}, or its number, from 1.
     skip : int, optional
         Lines above the header. None finds it.
+    table : int or str, optional
+        Which table of a file with several, from 1, or words above it.
 
     Returns
     -------
@@ -124,7 +130,7 @@ def read_creep(
     >>> print(mdr.read_creep("creep.csv", nu=0.5).compliance * 3e6)
     [1.  1.5 2. ]
     """
-    return Creep(*_over_time(path, CREEP, nu, Reading(units, columns, skip)))
+    return Creep(*_over_time(path, CREEP, nu, Reading(units, columns, skip, table)))
 
 
 def _over_time(
@@ -135,12 +141,15 @@ def _over_time(
     time, tensile, shear = columns
     found = [one for one in (tensile, shear) if one.name in table.values]
     if not found:
-        raise table.lacks(f"no {tensile.name}", f"{time.example}, {tensile.example}", tensile.name)
+        example = f"{time.example}, {tensile.example}, or {shear.name} of shear"
+        raise table.lacks(f"no {tensile.name}", example, tensile.name)
     if len(found) > 1:
         raise table.fault(f'{tensile.name} and {shear.name}: leave one out, columns={{"{shear.name}": ""}}')
     (one,) = found
     require_rows(table, table.values["t"] >= 0, "t counts from the step and must not be negative")
     require_rows(table, table.values[one.name] > 0, f"{one.name} must be positive")
+    if one is tensile and nu is not None:
+        raise table.fault(f"nu= has no effect on {one.name}, which is of tension: leave it out")
     values = table.values[one.name]
     if one is shear:
         if nu is None:

@@ -117,6 +117,7 @@ def read_friction_data(
     units: Units = None,
     columns: Columns = None,
     skip: int | None = None,
+    table: int | str | None = None,
     v_0: float | None = None,
     radius: float | None = None,
 ) -> FrictionData:
@@ -133,6 +134,8 @@ def read_friction_data(
         What the header calls a column, {"cof": "Reibwert"}, or its number, from 1.
     skip : int, optional
         Lines above the header. None finds it.
+    table : int or str, optional
+        Which table of a file with several, from 1, or words above it.
     v_0 : float, optional
         The velocity [m/s] of all rows, in the place of its column, of a file of friction over du_x, du_y, du_z, u_z0,
         load or frequency: `du_x [um], cof`.
@@ -167,19 +170,19 @@ def read_friction_data(
     """
     if v_0 is not None and radius is not None:
         raise ValueError("radius is of a column of turning speeds, and v_0= the velocity of all rows: give one")
-    reading = Reading(units, columns, skip)
+    reading = Reading(units, columns, skip, table)
     if v_0 is None:
-        table, wanted = _first_read(path, (VELOCITY if radius is None else TURNING,), reading, radius is None)
+        read, wanted = _first_read(path, (VELOCITY if radius is None else TURNING,), reading, radius is None)
     else:
-        table, wanted = _first_read(path, OVER, reading, False)
-    found = table.values
+        read, wanted = _first_read(path, OVER, reading, False)
+    found = read.values
     over = [one.name for one in OVER if one.name in found]
     if v_0 is not None and len(over) != 1:
         what = f"{' and '.join(over)}, and one is varied; leave out the others" if over else "nothing that is varied"
-        raise table.lacks(what, "du_x [um], cof", *(over or ["du_x"]))
-    cof = found["cof"] if "cof" in found else _of_forces(table)
+        raise read.lacks(what, "du_x [um], cof", *(over or ["du_x"]))
+    cof = found["cof"] if "cof" in found else _of_forces(read)
     if "error" not in found and "error" not in (columns or {}):
-        _look_for_errors(table, wanted, reading, cof)
+        _look_for_errors(read, wanted, reading, cof)
     if v_0 is not None:
         velocity, varied = np.full(cof.shape, finite("v_0", v_0)), over[0]
     else:
@@ -188,7 +191,7 @@ def read_friction_data(
     try:
         return FrictionData(velocity, cof, found.get("error"), varied, found.get(varied))
     except ValueError as refusal:
-        raise table.fault(str(refusal)) from None
+        raise read.fault(str(refusal)) from None
 
 
 def _first_read(

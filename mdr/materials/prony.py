@@ -331,6 +331,7 @@ class Prony(_WithArms):
         units: Units = None,
         columns: Columns = None,
         skip: int | None = None,
+        table: int | str | None = None,
     ) -> Prony:
         r"""The body of a table of arms (E_j [Pa], tau_j [s]) in a file, .csv or .toml.
 
@@ -354,6 +355,8 @@ class Prony(_WithArms):
             What the header calls a column, {"E_j": "modulus"}, or its number, from 1.
         skip : int, optional
             Lines above the header. None finds it.
+        table : int or str, optional
+            Which table of a file with several, from 1, or words above it.
 
         Returns
         -------
@@ -377,7 +380,7 @@ class Prony(_WithArms):
 
         if nu is not None:
             nu = poisson_ratio("nu", nu)
-        fields = from_table(path, nu, E_0, G_0, Reading(units, columns, skip))
+        fields = from_table(path, nu, E_0, G_0, Reading(units, columns, skip, table))
         try:
             return cls(**fields)
         except (TypeError, ValueError) as refusal:

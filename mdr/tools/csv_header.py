@@ -30,8 +30,8 @@ FITS, BARE, MISFITS = range(3)  #: a unit of the column, none where one is neede
 #: what is measured in a unit of the library
 MEASURED = {
     "m": "a length", "m/s": "a velocity", "m/s²": "an acceleration", "N": "a force", "Pa": "a stress or a modulus",
-    "rad/s": "a frequency or a speed of rotation", "rad": "an angle", "s": "a time", "K": "a temperature", "kg": "a mass",
-    "N m": "a torque", "V": "a voltage", "Pa s": "a viscosity", "N/m": "a stiffness", "1/Pa": "a compliance",
+    "rad/s": "a frequency or a speed of rotation", "rad": "an angle", "s": "a time", "K": "a temperature",
+    "kg": "a mass", "N m": "a torque", "V": "a voltage", "Pa s": "a viscosity", "N/m": "a stiffness", "1/Pa": "a compliance",
     "-": "a pure number",
 }  # fmt: skip
 #: what makes a quantity one of another unit
@@ -116,7 +116,7 @@ class Head(NamedTuple):
         if below:
             return cls(whole, whole, below, True, False)
         parts = re.split(r"[_\s.]+", whole)
-        for start, end in ((start, end) for end in range(len(parts), 1, -1) for start in range(1, end)):
+        for start, end in ((i, k) for k in range(len(parts), 1, -1) for i in range(1, k)):
             unit = "/".join(parts[start:end]).replace("/per/", "/")
             # one letter within the name is an index
             if is_unit(unit) and end - start < 4 and (end == len(parts) or len(unit) > 1):

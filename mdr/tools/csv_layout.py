@@ -1,8 +1,8 @@
 """A text as tables: its lines, the separator that cuts them into cells, rows of numbers and the words above them.
 
-Rows are the lines whose cells are mostly numbers. Rows that follow one another are one table; so are those between which
-a line has numbers and words: it is a row with a fault, and nothing between two rows is passed over. Words alone
-part two tables. A first line such as `sep=;` of Excel names the separator. Names and units of columns may stand in
+Rows are the lines whose cells are mostly numbers. Rows that follow one another are one table; so are those between
+which a line has numbers and words: it is a row with a fault, and nothing between two rows is passed over. Words
+alone part two tables. A first line such as `sep=;` of Excel names the separator. Names and units of columns may stand in
 comments.
 """
 

@@ -7,7 +7,8 @@
 
 A header names the columns, each with its unit in brackets (`csv_header`); lines above it, the separator and a row of
 units are found (`csv_layout`), and a decimal comma where no number can be read otherwise. Columns may stand in any
-order, beside others. Of several tables one must have them, or be chosen. What is wrong is told all at once, with the first lines as read and what to give with the file.
+order, beside others. Of several tables one must have them, or be chosen. What is wrong is told all at once, with the
+first lines as read and what to give with the file.
 """
 
 from __future__ import annotations
@@ -42,8 +43,8 @@ from mdr.tools.csv_layout import (
     told_separator,
 )
 from mdr.tools.messages import MOST_TOLD, one_line, short
-from mdr.tools.progress import progress
 from mdr.tools.notation import converted, decimal_mark, number_in, shown, with_point
+from mdr.tools.progress import progress
 from mdr.tools.warned import warn_outside
 
 Units = Mapping[str, str] | None  #: of columns whose header has none
@@ -187,9 +188,7 @@ def csv_text(columns: Mapping[str, Any]) -> str:
 MOST_ABOVE = 10_000  #: letters above a table in which words may tell of it
 
 
-def _found_in(
-    lines: Sequence[Line], told: str, source: str, columns: Sequence[Column], reading: Reading
-) -> list[Found]:
+def _found_in(lines: list[Line], told: str, source: str, columns: Sequence[Column], reading: Reading) -> list[Found]:
     """The tables, cut by the separator with which one fits best."""
     best: tuple[Any, str] | None = None
     for part in (lines[:SEARCHED], lines) if len(lines) > SEARCHED else (lines,):
@@ -206,7 +205,7 @@ def _found_in(
     return [one for one in found if one.is_whole or one.block.is_table] or [max(found, key=lambda one: one.rank)]
 
 
-def _cut(lines: Sequence[Line], separator: str, source: str) -> list[Block]:
+def _cut(lines: list[Line], separator: str, source: str) -> list[Block]:
     """The tables of all lines, at once where the last one goes on to the end as it begins."""
     if len(lines) > SEARCHED and (tables := blocks(lines[:SEARCHED], separator)):
         last = tables[-1]
@@ -238,9 +237,10 @@ def _with_header(
     """A table with one header."""
     heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
     header = Header(heads, names.units, columns, reading.units or {}, reading.columns or {}, above)
-    for line in block.above if names.line is not None else ():
+    top = math.inf if names.line is None else names.line.number
+    for line in block.above:
         cells = block.heads(line)
-        if line.number > names.line.number and not line.is_comment and not same_units(cells, names.units):
+        if line.number > top and not line.is_comment and not same_units(cells, names.units):
             if any(map(is_like_number, block.cells(line))):
                 header.faults.append(f"line {line.number}, {short(line.text)}, between header and rows is no row")
             elif any(map(str.isalnum, line.text)):
@@ -323,7 +323,7 @@ def _first(faults: Sequence[str], source: str) -> list[str]:
 # --- values ---
 
 
-def _scaled(values: Sequence[float], place: Place) -> Array:
+def _scaled(values: Sequence[float] | Array, place: Place) -> Array:
     """The values in the unit of the library; with a warning where their size is hardly meant."""
     column = place.column
     found = converted(np.array(values), place.unit or column.unit, column.unit)
