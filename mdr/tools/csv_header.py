@@ -31,8 +31,8 @@ FITS, BARE, MISFITS = range(3)  #: a unit of the column, none where one is neede
 MEASURED = {
     "m": "a length", "m/s": "a velocity", "m/s²": "an acceleration", "N": "a force", "Pa": "a stress or a modulus",
     "rad/s": "a frequency or a speed of rotation", "rad": "an angle", "s": "a time", "K": "a temperature",
-    "kg": "a mass", "N m": "a torque", "V": "a voltage", "Pa s": "a viscosity", "N/m": "a stiffness", "1/Pa": "a compliance",
-    "-": "a pure number",
+    "kg": "a mass", "N m": "a torque", "V": "a voltage", "Pa s": "a viscosity", "N/m": "a stiffness",
+    "1/Pa": "a compliance", "-": "a pure number",
 }  # fmt: skip
 #: what makes a quantity one of another unit
 USABLE = {

@@ -2,8 +2,8 @@
 
 Rows are the lines whose cells are mostly numbers. Rows that follow one another are one table; so are those between
 which a line has numbers and words: it is a row with a fault, and nothing between two rows is passed over. Words
-alone part two tables. A first line such as `sep=;` of Excel names the separator. Names and units of columns may stand in
-comments.
+alone part two tables. A first line such as `sep=;` of Excel names the separator. Names and units of columns may
+stand in comments.
 """
 
 from __future__ import annotations
@@ -86,41 +86,45 @@ class Block:
         return cells_of(line.text, self.separator)
 
     def heads(self, line: Line, text: str = "") -> list[str]:
-        """The cells of a line above: as many as the rows have, if it can be cut so; else by signs if not by blanks."""
+        """The cells of a line above; above rows cut by blanks as many as these have, however they are cut."""
         text = re.sub(r"^\s*[#%]+\s*", "", text or line.text).strip(" ")
-        own = cells_of(text, self.separator)
-        cuts = [own, *(cells_of(text, one) for one in SEPARATORS[:-1])]
-        cuts += [re.split(one, text) for one in (r"\s{2,}", r"\s+(?![\[(])")] + [cells_of(text, " ")]
-        alike = next((cells for cells in cuts if len(cells) == self.width), None)
-        return alike or (own if self.separator != " " else max(cuts[1 : len(SEPARATORS)], key=len))
+        if self.separator != " ":
+            return cells_of(text, self.separator)
+        by_signs = [cells_of(text, one) for one in SEPARATORS[:-1]]
+        by_blanks = [re.split(one, text) for one in (r"\s{2,}", r"\s+(?![\[(])")] + [cells_of(text, " ")]
+        alike = (cells for cells in (*by_signs, *by_blanks) if len(cells) == self.width)
+        return next(alike, max(by_signs, key=len))
 
     def names(self) -> Iterator[Names]:
         """What may be its header, the nearest first."""
-        told = next(filter(None, map(self._told_units, reversed([*self.beyond, *self.above]))), [])
+        words = [*self.beyond, *self.above]
+        of_units = [line for line in words if _UNITS.search(re.split(r"[:=\t;,]", line.text, maxsplit=1)[0])]
         cut = [(line, self.heads(line)) for line in self.above[-8:] if _LETTER.search(line.text)]
-        of_units = [cells if _are_units(cells := [_bare(cell) for cell in heads]) else [] for _, heads in cut]
-        for i in sorted(range(len(cut)), key=lambda i: (bool(of_units[i]), -i)):
-            units = next(filter(None, [*of_units[i + 1 :], *of_units[max(i - 1, 0) : i]]), told)
-            yield Names(*cut[i], [] if of_units[i] else units)
-        for line in [*self.beyond, *self.above]:
-            if (cells := self._keyed(line)) and len(cells) > 1 and not self._told_units(line):
-                yield Names(line, cells, told)
-        yield Names(None, [], told)
+        units = [cells if _are_units(cells := _bare(heads)) else [] for _, heads in cut]
+        for i in sorted(range(len(cut)), key=lambda i: (bool(units[i]), -i)):
+            near = next(filter(None, [*units[i + 1 :], *units[max(i - 1, 0) : i]]), [])
+            told = near or self._units_beside(cut[i][1], of_units)
+            yield Names(*cut[i], [] if units[i] else told)
+        for line in words:
+            if (cells := self._keyed(line)) and len(cells) > 1 and line not in of_units:
+                yield Names(line, cells, self._units_beside(cells, of_units))
+        yield Names(None, [], self._units_beside([""] * self.width, of_units))
+
+    def _units_beside(self, names: Sequence[str], of_units: Sequence[Line]) -> list[str]:
+        """The units in the last line whose first word says that they are: it stands in the first column, or before."""
+        for line in reversed(of_units):
+            own, count = _bare(cells_of(line.text, self.separator)), len(filled(names))
+            behind = own[1:] if len(filled(own)) > count else ["", *own[1:]]
+            for cells in (_bare(self._keyed(line)), behind):
+                if any(map(is_unit, cells)):
+                    return cells
+        return []
 
     def _keyed(self, line: Line) -> list[str]:
         """The cells behind a key, as in "# columns: a b", if they are as many as those of the rows."""
         keyed = _KEYED.fullmatch(line.text)
         cells = self.heads(line, keyed["cells"]) if keyed else []
         return cells if len(cells) == self.width else []
-
-    def _told_units(self, line: Line) -> list[str]:
-        """The units in a line whose first word says that they are."""
-        key, cells = re.split(r"[:=\t;,]", line.text, maxsplit=1)[0], self._keyed(line)
-        if not _UNITS.search(key):
-            return []
-        own = [_bare(cell) for cell in cells_of(line.text, self.separator)]
-        behind = own[1:] if len(own) > self.width else ["", *own[1:]]
-        return next((found for found in (cells, behind) if any(map(is_unit, found))), [])
 
 
 def lines_of(text: str, skip: int | None) -> list[Line]:
@@ -195,13 +199,20 @@ def _part(words: Sequence[Line], block: Block) -> bool:
     return any(one.text in above if one.is_comment else not any(map(is_like_number, block.cells(one))) for one in words)
 
 
-def _bare(cell: str) -> str:
-    return cell.strip(" []()/\t\"'<>")
+def _bare(cells: Sequence[str]) -> list[str]:
+    """Cells without brackets."""
+    return [cell.strip(" []()/\t\"'<>") for cell in cells]
+
+
+def filled(cells: Sequence[str]) -> Sequence[str]:
+    """Cells without the empty ones at their end."""
+    last = max((i for i, cell in enumerate(cells) if cell), default=-1)
+    return cells[: last + 1]
 
 
 def same_units(cells: Sequence[str], units: Sequence[str]) -> bool:
     """Whether the cells of a line are these units."""
-    return [_bare(cell) for cell in cells] == list(units)
+    return _bare(cells) == list(units)
 
 
 def _are_units(cells: Sequence[str]) -> bool:

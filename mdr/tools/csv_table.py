@@ -35,6 +35,7 @@ from mdr.tools.csv_layout import (
     Line,
     Names,
     blocks,
+    filled,
     is_like_number,
     lines_of,
     numbers_at_once,
@@ -131,7 +132,7 @@ class Found(NamedTuple):
     def fits(self) -> tuple[int, ...]:
         """How well the header fits what is looked for."""
         aligned = len(self.names.cells) == self.block.width
-        sound, table = not self.header.faults, self.block.is_table
+        sound, table = bool(self.header.at) and not self.header.faults, self.block.is_table
         return self.is_whole, sound, table, aligned, len(self.header.at), -len(self.header.faults)
 
     @property
@@ -355,9 +356,7 @@ def _require_known(name: str, given: Mapping[str, Any] | None, known: Sequence[s
 def _values_of(found: Found, source: str) -> tuple[dict[str, Sequence[float] | Array], list[str]]:
     """The numbers of each column, and what is wrong with cells and rows."""
     block, places = found.block, found.header.places
-    heads = len(found.names.cells)
-    while heads and not found.names.cells[heads - 1]:
-        heads -= 1
+    heads = len(filled(found.names.cells))
     numbered = all(str(found.header.called.get(one.column.name)).isdigit() for one in places)
     exact = block.separator == " "
     width = block.width if numbered or not heads or (exact and heads > block.width) else heads

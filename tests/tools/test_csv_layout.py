@@ -1,8 +1,20 @@
-"""Where a table stands: cells of a line, lines above a header, a row of units, letters of a file."""
+"""Where a table stands: cells of a line, lines above a header, a row of units, several tables, letters of a file."""
 
 import pytest
+from numpy.testing import assert_array_equal
 
-from mdr.tools.csv_layout import cells_of, decoded, is_like_number, layouts, likely, lines_of, told_separator
+from mdr.tools.csv_layout import (
+    SEPARATORS,
+    blocks,
+    cells_of,
+    decoded,
+    is_like_number,
+    kind_of,
+    lines_of,
+    numbers_at_once,
+    share_of_numbers,
+    told_separator,
+)
 
 
 @pytest.mark.parametrize(
@@ -12,6 +24,7 @@ def test_a_line_is_its_cells(line, cells):
     assert cells_of(line, ",") == cells
     assert cells_of("1,5;2", ";") == ["1,5", "2"]
     assert cells_of(" 1,5   2 ", " ") == ["1,5", "2"]
+    assert cells_of('a  "b c"', " ") == ["a", "b c"]
 
 
 NUMBERS = ["1", "-1.5", "−1,5", ".5", "5.", "1,", "1e-3", "1,5E+3", "1.234,5", "1,234.5", "inf", "NaN"]
@@ -27,6 +40,8 @@ TABLES = {
     "commas": ("t [s],a [g]\n0,1\n1,2\n", []),
     "preamble": ("Rate,1000\nDate;1.2.2024\n\nt [s],a [g]\n0,1\n1,2\n", []),
     "units below": ("made\nt,a\ns,g\n0,1\n1,2\n", ["s", "g"]),
+    "units above": ("made\ns,g\nt,a\n0,1\n1,2\n", ["s", "g"]),
+    "units in a line": ("# units: s g\nmade\nt a\n0 1\n1 2\n", ["s", "g"]),
     "brackets, tabs, commas": ("t\ta\n[s]\t[g]\n0,0\t1,5\n1,0\t2,5\n", ["s", "g"]),
     "a comment": ("# made\n% t [s] a [g]\n0 1\n1 2\n", []),
     "blanks": ("t [s]  a [g]\n 0  1\n 1  2\n", []),
@@ -35,24 +50,67 @@ TABLES = {
 
 
 @pytest.mark.parametrize(("text", "below"), TABLES.values(), ids=TABLES)
-def test_the_likely_header_stands_above_the_rows(text, below):
-    found = max(likely(lines_of(text, None), told_separator(text)), key=lambda one: one[1])[0]
-    assert [head.partition(" ")[0] for head in found.heads] == ["t", "a"]
-    assert found.below == below
+def test_the_header_stands_above_the_rows(text, below):
+    lines, told = lines_of(text, None), told_separator(text)
+    found = max((one for by in told or SEPARATORS for one in blocks(lines, by)), key=share_of_numbers)
+    names = next(found.names())
+    assert [head.partition(" ")[0] for head in names.cells] == ["t", "a"]
+    assert names.units == below
     assert len(found.rows) == 2
 
 
-def test_skip_is_lines_of_the_file_and_the_header_is_the_next():
+#: lines between two rows of "1,2", and how many rows each table then has
+BETWEEN = {
+    "nothing": ("", [2]),
+    "a blank line": ("\n", [2]),
+    "a short row": ("1\n", [3]),
+    "a hole": ("1,No Data\n", [3]),
+    "a remark": ("# dry\n", [2]),
+    "words": ("the end\n", [1, 1]),
+    "a header": ("t,a\n", [1, 1]),
+    "the comment above": ("# t,a\n", [1, 1]),
+}
+
+
+@pytest.mark.parametrize(("between", "counts"), BETWEEN.values(), ids=BETWEEN)
+def test_words_part_tables_and_rows_with_a_fault_do_not(between, counts):
+    found = blocks(lines_of(f"# t,a\n1,2\n{between}3,4\n", None), ",")
+    assert [len(one.rows) for one in found] == counts
+    assert [one.named is None for one in found] == [True, between != "the end\n"][: len(counts)]
+
+
+def test_skip_is_lines_of_the_file():
     text = "x,y\n\n1,2\nt,a\n3,4\n"
-    found = [one.heads for one in layouts(lines_of(text, None), "", None)]
-    assert ["x", "y"] in found
-    assert {tuple(one.heads) for one in layouts(lines_of(text, 2), "", 2)} == set()
-    assert ["t", "a"] in [one.heads for one in layouts(lines_of(text, 3), "", 3)]
+    assert [next(one.names()).cells for one in blocks(lines_of(text, None), ",")] == [["x", "y"], ["t", "a"]]
+    assert [next(one.names()).cells for one in blocks(lines_of(text, 3), ",")] == [["t", "a"]]
 
 
-@pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-be", "cp1252"])
+def test_numbers_at_once_are_those_of_cells():
+    lines = lines_of("1;2,5\n-3e2;,5\n", None)
+    assert_array_equal(numbers_at_once(lines, ";"), [[1, 2.5], [-300, 0.5]])
+    for text in ("1;2\n3\n", "1;x\n", "1;nan\n", "1;1_0\n", "1;0x1\n", "1,5;2.5\n", "1;\n"):
+        assert numbers_at_once(lines_of(text, None), ";") is None, text
+
+
+@pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-be", "utf-16-le", "cp1252", "shift_jis"])
 def test_letters_of_a_file(coding):
-    data = "µm\n".encode(coding)
+    letter = "μ" if coding == "shift_jis" else "µ"
+    data = f"{letter}m\n".encode(coding)
     text, said = decoded(b"\xfe\xff" + data if coding == "utf-16-be" else data)
-    assert text == "µm\n"
-    assert said == ("line 1 is not UTF-8: letters are read as Latin-1" if coding == "cp1252" else "")
+    assert text == f"{letter}m\n"
+    known = {"cp1252": "Latin-1", "shift_jis": "Shift-JIS"}
+    assert said == (f"line 1 is not UTF-8: letters are read as {known[coding]}" if coding in known else "")
+
+
+KINDS = {
+    b"PK\x03\x04\x14\x00": "an Excel workbook", b"MATLAB 5.0 MAT-file": "a MATLAB file", b"\x89HDF\r\n": "an HDF5",
+    b"RIFF\x24\x00WAVE": "a sound file", b"\x1f\x8b\x08": "a gzip archive", b"%PDF-1.7": "a PDF",
+    b"\x89PNG\r\n": "an image", b"\xd0\xcf\x11\xe0": "an Excel workbook", b"<html>": "a page of HTML",
+    b"a,b\n1\x00,2\n": "no text, it has a zero byte at 5",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("data", [*KINDS, b"", b"t,a\n", "t,a".encode("utf-16")])
+def test_what_is_no_text_is_named(data):
+    assert kind_of(data).startswith(KINDS.get(data, ""))
+    assert bool(kind_of(data)) == (data in KINDS)
