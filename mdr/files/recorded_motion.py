@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from collections.abc import Mapping
 from contextlib import suppress
@@ -17,6 +18,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of, warn_of_size
+from mdr.tools.messages import short
 from mdr.tools.notation import GRAVITY, is_number, parted, scale_of, shown
 from mdr.tools.warned import warn_outside
 
@@ -126,8 +128,7 @@ def read_record(
     found = read_table(path, wanted[rate is not None :], reading)
     record = found.values
     if not record.keys() - {"t"}:
-        what, example = "a time, and nothing else by a name known here", "t [s], a [m/s²], or t [s], u_x [um], u_z [um]"
-        raise found.lacks(what, example, *(one.name for one in MOTION))
+        raise _nothing(found)
     for column in MOTION:
         if column.name in per_volt and column.name in record:
             record[column.name] *= per_volt[column.name]
@@ -142,6 +143,20 @@ def read_record(
     record["t"] = _evened(record["t"], found.source)
     _doubt_units(record)
     return record
+
+
+def _nothing(table: Table) -> ValueError:
+    """The error of a file with no motion by its name; what its units may be is told."""
+    said, meant = "", ["a_z"]
+    for head in (head for i, head in enumerate(table.header.heads) if i not in table.header.at.values()):
+        if scale_of(head.unit, "V") is not None:
+            said += '; of volts give sensitivity=, such as "100 mV/g"'
+        elif names := [one.name for one in MOTION[1:] if one.measured_in(head.unit)]:
+            said += f"; {short(head.whole)} may be {', '.join(names)}"
+            words = re.split(r"[\W_]+", head.whole.casefold())
+            meant = [*meant[meant == ["a_z"] :], *([one for one in names if one[-1] in words] or names[-1:])]
+    example = f"t [s], a [m/s²], or t [s], u_x [um], u_z [um]{said}"
+    return table.lacks("a time, and nothing else by a name known here", example, *meant)
 
 
 def _per_volt(sensitivity: str | Mapping[str, str]) -> dict[str, float]:
