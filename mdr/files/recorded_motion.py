@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import warnings
 from collections.abc import Mapping
 from contextlib import suppress
@@ -147,16 +146,19 @@ def read_record(
 
 def _nothing(table: Table) -> ValueError:
     """The error of a file with no motion by its name; what its units may be is told."""
-    said, meant = "", ["a_z"]
-    for head in (head for i, head in enumerate(table.header.heads) if i not in table.header.at.values()):
+    said, meant, volts, header = "", [], "", table.header
+    for i in (i for i in range(len(header.heads)) if i not in header.at.values()):
+        head = header.heads[i]
         if scale_of(head.unit, "V") is not None:
-            said += '; of volts give sensitivity=, such as "100 mV/g"'
+            sensor = f'columns={{"a_z": {header.word_for(i)}}}, sensitivity="100 mV/g", or what it is'
+            volts = volts or f"{short(head.whole)} is a voltage: say of which quantity, such as {sensor}"
         elif names := [one.name for one in MOTION[1:] if one.measured_in(head.unit)]:
             said += f"; {short(head.whole)} may be {', '.join(names)}"
-            words = re.split(r"[\W_]+", head.whole.casefold())
-            meant = [*meant[meant == ["a_z"] :], *([one for one in names if one[-1] in words] or names[-1:])]
+            meant += [one for one in names if one[-1] in head.axes] or names[-1:]
+    if volts and not said:
+        return table.fault(volts)
     example = f"t [s], a [m/s²], or t [s], u_x [um], u_z [um]{said}"
-    return table.lacks("a time, and nothing else by a name known here", example, *meant)
+    return table.lacks("a time, and nothing else by a name known here", example, *(meant or ["a_z"]))
 
 
 def _per_volt(sensitivity: str | Mapping[str, str]) -> dict[str, float]:

@@ -190,7 +190,11 @@ class Header:
 
     def way_out(self, more: Sequence[Column] = ()) -> str:
         """What to say beside the name of the file, so that it is read as it is; of `more` columns too."""
-        if all(place.column.needed for place in self.places):
+        if (
+            not more
+            and all(place.column.needed for place in self.places)
+            and not any(map(self._is_doubtful, self._free()))
+        ):
             more = [*more, *(one for one in self.columns if one.lone and not one.needed)]
         absent = list(dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)]))
         columns = {name: repr_of(own) for name, own in self.called.items() if name in self.at or own == ""}
@@ -288,7 +292,8 @@ class Header:
         for i, columns in asked.items():
             ways = [f"if it is {one.name}, columns={{{repr_of(one.name)}: {self.word_for(i)}}}" for one in columns]
             ways += dict.fromkeys(one.asked for one in columns if one.asked)
-            ways += [f'columns={{"{one.name}": ""}} leaves it out' for one in columns[:1] if not one.needed]
+            none = ", ".join(f'"{one.name}": ""' for one in columns if not one.needed)
+            ways += [f"columns={{{none}}} leaves it out"] if none else []
             whose = " or ".join(one.name for one in columns)
             self.faults.append(f"{short(self.heads[i].whole)} may be {whose}, or another quantity: {'; '.join(ways)}")
         return {one.name for columns in asked.values() for one in columns if one.needed}
@@ -407,7 +412,9 @@ class Header:
 def _usable(quantity: str, wanted: Sequence[Column]) -> str:
     """What makes a quantity one of the columns that are wanted."""
     ways = (f", {USABLE[quantity, one.unit]}" for one in wanted if USABLE.get((quantity, one.unit)))
-    return next(ways, ", which needs the sensitivity of its sensor" if quantity == "V" else "")
+    return next(
+        ways, ", which needs the sensitivity of its sensor, sensitivity= of a record" if quantity == "V" else ""
+    )
 
 
 def repr_of(said: str | int) -> str:

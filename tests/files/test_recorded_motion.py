@@ -72,7 +72,7 @@ ASKED = [
     ("t [s],Velocity [mm/s]", {}, "may be v_x or v_z"),
     ("t [s],Time Signal [m/s]", {}, r"Time Signal \[m/s\] may be v_x, v_y, v_z"),
     ("t [s],Time Signal [m]", {}, r"Time Signal \[m\] may be u_x, u_y, u_z"),
-    ("t [s],Ch1 [mV]", {}, r'of volts give sensitivity=, such as "100 mV/g"'),
+    ("t [s],Ch1 [mV]", {}, r'is a voltage: say of which quantity, such as columns={"a_z": "Ch1"}, sensitivity="100'),
     ("t [s],a [g]", {"sensitivity": "100 mV/g"}, "'g' of a_z is none of V, mV"),
     ("t [s],x [um]", {"sensitivity": "100 mV/g"}, "sensitivity has no effect: the file has no a_x"),
     ("t [s],a_z [V]", {"sensitivity": {"a_z": "1 V/g", "a_x": "1 V/g"}}, "no effect: the file has no a_x in V"),
