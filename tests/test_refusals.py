@@ -229,6 +229,9 @@ CALLS = [
         "t": SAMPLES, "a": SAMPLES, "u_z0": [(NAN, "finite"), (-1.0, "never")], "frequency": [
             *((value, words) for value, words in ABOVE_ZERO if value is not None),
             (2.0, "holds 2 periods"), (200.0, "below half of the sampling rate, 100 Hz")]}),
+    *((make, {"t": SAMPLED["t"], name: SAMPLED["a"], "u_z0": 1e3}, {"t": SAMPLES, name: SAMPLES, "frequency": [
+        (2.0, "holds 2 periods")]}) for name, make in (
+            ("v", mdr.PeriodicMotion.from_velocity), ("u", mdr.PeriodicMotion.from_displacement))),
     (mdr.displacement_of, {**SAMPLED, "high_pass": 5.0}, {"t": SAMPLES, "a": SAMPLES, "high_pass": [
         *ABOVE_ZERO, (0.5, "must lie between 1 Hz"), (100.0, "100 Hz, half of the sampling rate")]}),
     (mdr.KelvinVoigt.from_shear, {"G": 1.0, "eta": 1.0, "nu": 0.5}, {
@@ -362,6 +365,7 @@ SAYINGS = {
     "PeriodicMotion.from_acceleration(T[:25], WAVE[:25], u_z0=1e-5)": "holds 2.5 periods and must hold three or more",
     "PeriodicMotion.from_acceleration([0, 1, 2], [0, 1, 0], u_z0=1e-5)": "t must be a list of 8 instants or more",
     "displacement_of(T**1.1, WAVE, high_pass=5.0)": "t must rise in equal steps, but sample",
+    "displacement_of(T, WAVE, high_pass=5.0, order=3)": "order must be 2 of an acceleration, 1 of a velocity or 0 of a",
     "LoadOscillation(0.1, 0.2, 300)": "dF_z = 0.2 N must be less than F_z0 = 0.1 N where nothing has mass",
     "SpringPull(k_x=2e4, c_y=1.0)": "give k_y",
     "replace(CASE, shake=InPlaneOscillation(314.0, du_y=1e-6, at='pull'))": "guided there",

@@ -99,7 +99,7 @@ def read_force_curve(
     >>> print(f"{curve.baseline:.3g} N, {curve.depths[-1]:.2g} m")
     0.001 N, 8e-06 m
     """
-    if not re.fullmatch(rf"({'|'.join(PARTS)})( [1-9]\d*)?", part):
+    if not re.fullmatch(rf"({'|'.join(PARTS)})( [1-9]\d*)?", str(part)):
         raise ValueError(f'part must be one of {", ".join(PARTS)}, or "approach 2" of several, got {part!r}')
     power = TIPS[tip_of("tip", tip)]
     touch = None if touch is None else finite("touch", touch, "reading of d in m")

@@ -26,6 +26,7 @@ FAST = (0.0, 1e3)  #: velocity [m/s]
 UNEVEN = 0.1  #: share of a step that times may be off even ones
 TIME = Column("t", ("time", "elapsed time", "timestamp"), "s", lone=True, instead="rate=, in Hz, for even steps")
 WAYS = ("displacement", "disp", "position", "way", "u")  #: along the slide, or into the half-space
+OF_SLIDE = ("friction", "tangential", "lateral", "COF", "stroke", "slid")  #: words of a tribometer
 
 
 def _along(axis: str, letter: str, unit: str, words: tuple[str, ...], **more: Any) -> Column:
@@ -41,12 +42,13 @@ def _acceleration(axis: str, *names: str) -> Column:
 
 
 def _velocity(axis: str, *doubtful: str) -> Column:
-    return _along(axis, "v", "m/s", ("velocity", "vibration velocity"), likely=FAST, doubtful=doubtful)
+    beside = OF_SLIDE if axis == "x" else ()
+    return _along(axis, "v", "m/s", ("velocity", "vibration velocity"), likely=FAST, doubtful=doubtful, beside=beside)
 
 
 MOTION = (
     TIME,
-    Column("u_x", ("x",), "m", needed=False, doubtful=(*WAYS, "stroke", "travel")),
+    Column("u_x", ("x",), "m", needed=False, doubtful=(*WAYS, "stroke", "travel"), beside=OF_SLIDE),
     Column("u_y", ("y",), "m", needed=False),
     Column("u_z", ("depth", "indentation"), "m", needed=False, likely=(0.0, 0.01), doubtful=(*WAYS, *HEIGHTS)),
     Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
@@ -166,6 +168,8 @@ def _per_volt(sensitivity: str | Mapping[str, str]) -> dict[str, float]:
     if isinstance(sensitivity, str):
         unit, value = _meaning(sensitivity)
         return {one.name: value for one in MOTION if one.unit == unit}
+    if not isinstance(sensitivity, Mapping):
+        raise TypeError(f'sensitivity must be a text, "100 mV/g", or a dict of such, got {sensitivity!r}')
     found, units = {}, {one.name: one.unit for one in MOTION if one is not TIME}
     for name, text in sensitivity.items():
         unit, found[name] = _meaning(text)
@@ -176,7 +180,7 @@ def _per_volt(sensitivity: str | Mapping[str, str]) -> dict[str, float]:
 
 def _meaning(text: str) -> tuple[str, float]:
     """Unit and size of what a volt means, of a sensitivity as mV/g or mm/s/V."""
-    number, symbol = parted(text)
+    number, symbol = parted(str(text))
     first, _, last = symbol.partition("/")
     volts, signal = scale_of(first, "V"), last.strip("( )")
     if is_per_volt := volts is None:

@@ -377,7 +377,7 @@ REFUSED = [
     (record, "t, a\nms, g\n0, 1\n", {"units": {"t": "s", "a_z": "g"}}, "t in ms, units= in s"),
     (record, "Zeit (s);Beschl. Z (g);Beschl. X (g)\n0;1;0\n", {}, '"a_x": "Beschl. X", "a_z": "Beschl. Z"'),
     (record, "t [s], b [V]\n0, 1\n", {},
-     "the header names a time, and nothing else by a name known here; write t [s], a [m/s²], or"),
+     "b [V] is a voltage: say of which quantity", "sensitivity="),
     (profile, f"Weg in um;Hoehe in um\n{SCAN.replace(',', ';')}", {}, "no r and no f", "Weg in um", 'columns={"r"'),
     (profile, f"r [um], f\n{SCAN}", {"units": {"f": "yard"}}, "units: f = 'yard' is none of m, cm"),
     (profile, f"r [um], f\n{SCAN}", {"units": {"r": "mm", "f": "nm"}}, "gives r in um, units= in mm; give one"),

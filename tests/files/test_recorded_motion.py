@@ -12,6 +12,7 @@ import mdr
 
 G = 9.80665
 T = np.arange(8) * 1e-3
+NEWLINE = "\n"
 ROWS = "".join(f"{i}e-3,{i}\n" for i in range(8))
 N = np.arange(8.0)
 
@@ -48,13 +49,14 @@ FORMS = {
         "Time (s),Ch1", {"sensitivity": "1 V/g", "columns": {"a_z": "Ch1"}, "units": {"a_z": "mV"}}, "a_z",
         1e-3 * G * N),
     "stroke of a tribometer": ("t [s],Displacement [um]", {"columns": {"u_x": "Displacement"}}, "u_x", 1e-6 * N),
+    "the same, by what is beside": ("t [s],Displacement [um],Friction force [mN]", {}, "u_x", 1e-6 * N),
     "depth": ("t [s],Depth [um]", {}, "u_z", 1e-6 * N),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize(("head", "given", "name", "values"), FORMS.values(), ids=FORMS)
 def test_forms_that_owners_have(read, head, given, name, values):
-    record = read(f"{head}\n{ROWS}", **given)
+    record = read(f"{head}\n{ROWS if head.count(',') == 1 else ROWS.replace(NEWLINE, ',1' + NEWLINE)}", **given)
     assert record.keys() == {"t", name}
     assert_allclose(record["t"], T, rtol=1e-12)
     assert_allclose(record[name], values, rtol=1e-12)
@@ -108,3 +110,10 @@ def test_a_size_that_is_hardly_meant_is_told_of_volts_too(tmp_path):
     path.write_text(f"t [s],a_z [V]\n{ROWS}")
     with pytest.warns(mdr.PlausibilityWarning, match="a_z is at most 70 Mm/s²|a_z is at most 7e"):
         mdr.read_record(path, sensitivity="0.0001 uV/(mm/s²)")
+
+
+def test_a_sensitivity_is_a_text_or_a_dict_of_texts(read):
+    with pytest.raises(TypeError, match='sensitivity must be a text, "100 mV/g", or a dict of such, got 100'):
+        read(f"t [s],a [V]\n{ROWS}", sensitivity=100)
+    with pytest.raises(ValueError, match='sensitivity must be as "100 mV/g"'):
+        read(f"t [s],a [V]\n{ROWS}", sensitivity={"a_z": 100})
