@@ -26,7 +26,7 @@ FAST = (0.0, 1e3)  #: velocity [m/s]
 UNEVEN = 0.1  #: share of a step that times may be off even ones
 TIME = Column("t", ("time", "elapsed time", "timestamp"), "s", lone=True, instead="rate=, in Hz, for even steps")
 WAYS = ("displacement", "disp", "position", "way", "u")  #: along the slide, or into the half-space
-OF_SLIDE = ("friction", "tangential", "lateral", "COF", "stroke", "slid")  #: words of a tribometer
+OF_SLIDE = ("friction", "tangential", "lateral", "COF", "reciprocat", "slid")  #: words of a tribometer
 
 
 def _along(axis: str, letter: str, unit: str, words: tuple[str, ...], **more: Any) -> Column:
