@@ -211,6 +211,8 @@ def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
     rows = np.arange(first, end) if way == "approach" else np.arange(end - 1, first - 1, -1)
     is_high = F[rows] - F[rows].min() > LEAST_RISE * np.ptp(F[rows])
     rows = rows[: min(before_it_stands(x[rows], is_high) for x in (z, F))]
+    top = np.flatnonzero(z[rows] >= z[rows].max() - reach_of_noise(z))  # of these by noise one is the deepest
+    rows = rows[: top[np.argmax(F[rows][top] >= F[rows][top].max() - reach_of_noise(F[rows]))] + 1]
     unread = np.ones(z.size, dtype=bool)
     for others in (run for one in PARTS for run in parts[one] if run != (first, end)):
         unread[slice(*others)] = False

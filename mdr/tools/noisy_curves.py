@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mdr.tools.arrays import EXACT, Array
 
-SLOW = 0.1  #: share of a rate, below which a rise stands still
+SLOW = 0.25  #: share of a rate, below which a rise stands still; as the root of time it slows to a third
 FEW = 2  #: readings, of which none is left out
 
 

@@ -36,7 +36,7 @@ def test_a_stand_still_is_left_out_and_a_slower_rise_is_not():
     always = np.ones(x.size, dtype=bool)
     assert before_it_stands(x, always) == 100
     assert before_it_stands(x, np.arange(150) < 50) == 150  # it may not stand where it does
-    assert before_it_stands(np.concatenate([np.arange(100.0), 99 + 0.2 * np.arange(50)]), always) == 150
+    assert before_it_stands(np.concatenate([np.arange(100.0), 99 + 0.3 * np.arange(50)]), always) == 150
     assert before_it_stands(np.sin(np.linspace(0, np.pi / 2, 200)), np.ones(200, dtype=bool)) == 200
     assert before_it_stands(np.arange(3.0), always[:3]) == 3
     stairs = np.concatenate([np.arange(2000) // 10, np.full(500, 200.0)])
