@@ -9,6 +9,7 @@ from mdr.tools.arrays import EXACT, Array
 
 SLOW = 0.25  #: share of a rate, below which a rise stands still; as the root of time it slows to a third
 FEW = 2  #: readings, of which none is left out
+TINY = float(np.finfo(float).tiny)
 
 
 def reach_of_noise(x: Array) -> float:
@@ -66,7 +67,7 @@ def _smoothed(d: Array) -> Array:
     for degree, pieces in ((1, 1), *((3, 2**k) for k in range(int(np.log2(max(d.size / 8, 1)))))):
         knots = np.concatenate([[0.0] * degree, np.linspace(0, 1, pieces + 1), [1.0] * degree])
         smooth = np.asarray(make_lsq_spline(n, d, knots, degree)(n)) if d.size > 2 * degree else d
-        rest = max(float(np.var(d - smooth)), EXACT * float(np.var(d)))
+        rest = max(float(np.var(d - smooth)), EXACT * float(np.var(d)), TINY)
         score = d.size * np.log(rest) + (degree + pieces) * np.log(d.size)
         best = min(best, (score, smooth), key=lambda one: one[0])
     return best[1]

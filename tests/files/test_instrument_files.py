@@ -279,7 +279,8 @@ INSTRUMENTS = {
         a, b in zip(TIMES, A, strict=True)), {}, ACC),
     "a table of stamps": (record, "Stamp;Acc Z (g)\n" + "".join(f"2024-05-01 12:00:00.{k:03d};{b:g}\n" for k, b in
         enumerate(A)), {"rate": 1e3}, ACC),
-    "fretting": (record, "Time [s],Displacement [um],Friction force [mN]\n" + tabs(TIMES, A, A, by=","), {}, None),
+    "fretting": (record, "Time [s],Displacement [um],Friction force [mN]\n" + tabs(TIMES, A, A, by=","), {},
+                 {"u_x": 1e-6 * np.array(A)}),
     # --- profiles
     "Keyence, Shift-JIS": (profile, ('"Horizontal distance","Height"\n"μm","μm"\n' + "".join(f'"{a:.3f}","{b:.4f}"\n'
         for a, b in zip(X, H, strict=True))).encode("shift_jis"), {}, SHAPE),
