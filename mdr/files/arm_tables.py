@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mdr.files.case_files import record_of
-from mdr.files.measurements import LIKELY_MODULUS, read_table
+from mdr.files.measurements import LIKELY_MODULUS, read_table, require_rows
 from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals, instantaneous_of
 from mdr.files.toml_text import parse_toml, read_text, tried
 from mdr.tools.csv_header import Column, fault
@@ -50,14 +50,16 @@ def from_table(
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
     try:
-        table = read_table(path, (*ARMS, TAU), reading)
+        table = read_table(path, (*ARMS, TAU, BETA._replace(needed=False)), reading)
     except ValueError as refusal:
         try:
             table = read_table(path, (*ARMS, BETA), reading)
         except ValueError:
             raise refusal from None
+    if (beta := table.values.get("beta_j")) is not None:
         with np.errstate(divide="ignore"):
-            table.values["tau_j"] = 1 / table.values["beta_j"]
+            tau = table.values.setdefault("tau_j", 1 / beta)
+            require_rows(table, np.isclose(1 / beta, tau, rtol=ROUNDED), "beta_j must be 1/tau_j; leave one out")
     return {**_from_csv(table, nu, instantaneous_of(E_0, G_0, nu)), "nu": nu}
 
 

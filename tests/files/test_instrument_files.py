@@ -25,6 +25,7 @@ AT_20 = {"omega": [HZ, 10 * HZ], "storage": [8e6, 9.6e6], "loss": [1.6e6, 1.92e6
 RELAXED = {"t": [0.1, 1, 10], "modulus": [3e6, 2e6, 1.5e6]}
 CREPT = {"t": [0.1, 1, 10], "compliance": [1e-6, 1.5e-6, 2e-6]}
 ARMS = {"E_inf": 1e6, "arms": [(6e5, 0.01), (4e5, 1.0)]}
+FLOWS = {**ARMS, "E_inf": 0.0}
 FRICTION = {"v_0": [5e-4, 1e-3], "cof": [0.31, 0.35]}
 
 
@@ -235,10 +236,11 @@ INSTRUMENTS = {
     "Abaqus CAE": (arms, ("g_i Prony, k_i Prony, tau_i Prony\n0.3, 0.3, 0.01\n0.2, 0.2, 1\n"), {"E_0": 2e6}, None),
     "Ansys, workbench": (arms, ("Index\tRelative Moduli\tRelaxation Time (s)\n1\t0.3\t0.01\n2\t0.2\t1\n"), {"E_0": 2e6
         }, ARMS),
-    "COMSOL": (arms, ("Branch,Gm (MPa),taum (s)\n" "1,0.2,0.01\n" "2,0.13333333333333333,1\n"), {}, None),
+    "COMSOL": (arms, ("Branch,Gm (MPa),taum (s)\n" "1,0.2,0.01\n" "2,0.13333333333333333,1\n"), {}, FLOWS),
     "shear, suffixes": (arms, ("G_i_MPa,tau_i_ms\n0.2,10\n0.13333333333333333,1000\n0.3333333333333333,inf\n"), {},
         ARMS),
-    "arms, rates": (arms, "G_i [MPa],beta_i [1/s]\n0.2,100\n0.1333,1\n", {}, None),
+    "arms, rates": (arms, "G_i [MPa],beta_i [1/s]\n0.2,100\n0.13333333333333333,1\n", {}, FLOWS),
+    "arms, rates of other times": (arms, "E_i [MPa],beta_i [1/s],tau_i [s]\n0.2,100,0.02\n", {}, None),
     # --- records
     "phyphox": (record,
         PHONE + ',"Absolute acceleration (m/s^2)"\n'
@@ -325,7 +327,7 @@ INSTRUMENTS = {
     "torque": (friction, "velocity_rad_s,torque_Nm\n-1,-1.07\n1,1.07\n", {}, None),
     "MTM": (friction, "Rolling Speed (mm/s);Traction Coeff (-)\n" + tabs(V, MU, by=";", mark=","), {"columns": {"cof":
         "Traction Coeff"}}, COF),
-    "forces": (friction, "v [mm/s],Ft [N],Fn [N]\n" + tabs(V, MU, o, by=","), {}, None),
+    "forces": (friction, "v [mm/s],Ft [N],Fn [N]\n" + tabs(V, MU, o, by=","), {}, COF),
     "a short row": (friction, "v [mm/s],n,mu\n0.5,3,0.31\n1,4\n2,3,0.4\n", {}, None),
     "a mean below": (friction, "v [mm/s],mu\n" + tabs(V, MU, by=",") + "Mean,0.35\n", {}, None),
     "an index of pandas, whole numbers for names": (moduli, ",0,1,2\n" + tabs(np.arange(3.0), HERTZ, STORAGE, LOSS, by

@@ -7,7 +7,7 @@ from mdr.files.force_curves import FORCE
 from mdr.files.measurements import MODULI
 from mdr.files.profiles import PROFILE
 from mdr.files.recorded_motion import MOTION
-from mdr.friction.friction_data import COLUMNS
+from mdr.friction.friction_data import FRICTION, VELOCITY
 from mdr.tools.csv_table import Reading, table_of
 
 WANTED = {
@@ -15,7 +15,7 @@ WANTED = {
     "moduli": (MODULI, {"omega": "f [Hz]", "storage": "E' [MPa]", "loss": "E'' [MPa]"}),
     "profile": (PROFILE, {"r": "r [um]", "f": "f [nm]"}),
     "force": (FORCE, {"d": "d [nm]", "F": "F [mN]"}),
-    "friction": (COLUMNS, {"v_0": "v [mm/s]", "cof": "mu"}),
+    "friction": ((VELOCITY, *FRICTION), {"v_0": "v [mm/s]", "cof": "mu"}),
 }
 
 
