@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mdr.element.cuts import MOST_PARTS, Cuts, Pulled, cut, cut_again
 from mdr.spring.contact import Each, Springs, press
 from mdr.spring.copies import put
 from mdr.spring.law import Law
@@ -19,7 +20,9 @@ from mdr.spring.path import Path
 from mdr.spring.row import row
 from mdr.spring.times import STEP, new_tools, tools_of
 from mdr.tools.arrays import SAME, Array
+from mdr.tools.compiler import Complex, NoneType, overload
 from mdr.tools.jit import compiled, inner
+from mdr.tools.linked import LINKED
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 _inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
@@ -48,13 +51,32 @@ class SpringRow(NamedTuple):
     force_z: float  #: [N]
 
 
-@_inline
-def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each):
-    """The springs s, e after a straight way, scaled, from the depth z_0: their Answer. e is complex in the plane."""
+def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
+    """The springs s, e after a straight way, scaled, from the depth z_0: what they are Pulled by. e is complex in the
+    plane, where a step with arms is cut into parts: by `cuts`; None, or one of no parts yet, has them found.
+    """
+    of = _cut if arms is not None and np.iscomplexobj(e) else _at_once
+    return of(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts)
+
+
+@overload(straight, jit_options={"error_model": "numpy", "fastmath": {"reassoc", "contract"}, **LINKED})
+def _(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
+    return _at_once if isinstance(arms, NoneType) or not isinstance(e.dtype, Complex) else _cut
+
+
+def _at_once(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
     h = tools.times.h
     z_1, x_1 = way_z / h, way_x / h
     path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1, None)
-    return row(s, e, Springs(contact.gap, contact.w, None), path, z_1, x_1, T, modes, arms, tools, None, each, None)
+    of = row(s, e, Springs(contact.gap, contact.w, None), path, z_1, x_1, T, modes, arms, tools, None, each, None)
+    return Pulled(of.end, of.normal_end, of.area, of.normal_area)
+
+
+def _cut(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
+    z_1, x_1 = way_z / tools.times.h, way_x / tools.times.h
+    if cuts is not None and cuts.n[0] > 0:
+        return cut_again(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each, cuts)
+    return cut(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each, cuts)
 
 
 class Room(NamedTuple):
@@ -112,20 +134,21 @@ def forces(each, F):
 
 
 @_inline
-def moved(s, e, z_0, way, contact, T, modes, arms, tools, room):
+def moved(s, e, z_0, way, contact, T, modes, arms, tools, room, cuts):
     """The springs s, e, which are left as they are, after a straight way (3,) from the depth z_0, in the room."""
     put(s, room.s)
     put(e, room.e)
-    return straight(room.s, room.e, z_0, complex(way[0], way[1]), way[2], contact, T, modes, arms, tools, room.each)
+    in_plane, each = complex(way[0], way[1]), room.each
+    return straight(room.s, room.e, z_0, in_plane, way[2], contact, T, modes, arms, tools, each, cuts)
 
 
 @_inline
-def looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room):
+def looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room, cuts):
     """Forces after a way, which stand in room.F[0], and after ways that are d and 2 d longer along the axis j."""
     there = way.copy()
     for k in range(1, 3):
         there[j] = way[j] + k * d
-        moved(s, e, z_0, there, contact, T, modes, arms, tools, room)
+        moved(s, e, z_0, there, contact, T, modes, arms, tools, room, cuts)
         forces(room.each, room.F[k])
 
 
@@ -145,14 +168,14 @@ def slope(F, k, i, d):
 
 
 @_inline
-def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
+def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone, cuts):
     """Fill K[:, j] with the derivatives of the scaled forces by the way along the axis j, from the side of d.
 
     Each spring is asked for itself. One that does not go on evenly is asked again nearer by; if it never does, it
     switches here, and the derivative beyond counts: the first that a spring can have, as steps with arms may jump there
     by their error.
     """
-    looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room)
+    looks_ahead(s, e, z_0, way, j, d, contact, T, modes, arms, tools, room, cuts)
     even, stiffest = EVEN * abs(d) * (1.0 + T / tools.times.h), glassy(arms) + T / tools.times.h
     for k in range(3):
         K[k, j] = 0.0
@@ -168,7 +191,7 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone):
             alone.F[0, k, 0] = room.F[0, k, i]
         for look in range(NEARER + FARTHER):
             near = d * 0.1 ** (look + 1) if look < NEARER else d * 10.0 ** (look - NEARER)
-            looks_ahead(own_s, own_e, z_0, way, j, near, one, T, modes, arms, tools, alone)
+            looks_ahead(own_s, own_e, z_0, way, j, near, one, T, modes, arms, tools, alone, cuts)
             if look < NEARER:
                 done = w * bends(alone.F, 0) <= even * abs(near / d)
             change, most = 0.0, stiffest * abs(near)
@@ -194,7 +217,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
     force = contact.force_x, contact.force_x, contact.force_z
     parts = parts_of(states.shape[1], n)
     room, alone, K, way = room_for(parts, n), room_for(parts, 1), np.empty((3, 3)), np.empty(3)
-    s, e = np.empty((parts, n)), np.empty((parts, n), np.complex128)
+    s, e, cuts = np.empty((parts, n)), np.empty((parts, n), np.complex128), Cuts(np.empty(MOST_PARTS), np.zeros(1, np.int64))
     new_s, new_e = np.empty_like(s), np.empty_like(e)
     for b in range(us.shape[0]):
         state, finite = states[b], True
@@ -208,7 +231,8 @@ def steps(states, us, h, contact, mark, pull, tangents):
         z_0 = state[2] / contact.length_z
         for k in range(3):
             way[k] = us[b, k] / unit[k] - state[k] / unit[k]
-        of = moved(s, e, z_0, way, contact, T, modes, arms, tools, room)
+        cuts.n[0] = 0
+        of = moved(s, e, z_0, way, contact, T, modes, arms, tools, room, cuts)
         now, area = (of.end.real, of.end.imag, of.normal_end), (of.area.real, of.area.imag, of.normal_area)
         put(room.s, new_s)
         put(room.e, new_e)
@@ -223,7 +247,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
                 if side == 0.0 and j < 2:  # it goes on the way of the friction
                     side = now[j]
                 d_j = -d if side < 0.0 else d
-                rates(K, j, d_j, s, e, z_0, way, contact, T, modes, arms, tools, room, alone)
+                rates(K, j, d_j, s, e, z_0, way, contact, T, modes, arms, tools, room, alone, cuts)
                 for k in range(3):
                     tangents[b, k, j] = force[k] * K[k, j] / unit[j]
                     finite &= np.isfinite(tangents[b, k, j])
@@ -309,7 +333,7 @@ def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
             put(e, e_near)
             soon, way = tools_of(SOON * (t[k] - t[k - 1]), modes, arms, tools), SOON * (x[k] - x_0)
             sinks = SOON * (depth[k] - z_0)
-            of = straight(s_near, e_near, z, way, sinks, contact, T, modes, arms, soon, None)
+            of = straight(s_near, e_near, z, way, sinks, contact, T, modes, arms, soon, None, None)
             out[k - 1, 0] = 0.5 * (out[k - 1, 0] + of.end.real)
             out[k - 1, 1] = 0.5 * (out[k - 1, 1] + of.end.imag)
             out[k - 1, 2] = 0.5 * (out[k - 1, 2] + of.normal_end)
@@ -323,7 +347,7 @@ def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
                 ahead = rate * h if under > 0.0 else 0.0
                 z_2 = depth_under(under, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
                 rate = (z_2 - z) / h
-            of = straight(s, e, z, x_2 - x_1, z_2 - z, contact, T, modes, arms, tools, None)
+            of = straight(s, e, z, x_2 - x_1, z_2 - z, contact, T, modes, arms, tools, None, None)
             x_1, z = x_2, z_2
             out[k, 0], out[k, 1], out[k, 2] = of.end.real, of.end.imag, of.normal_end
             out[k, 3] += dt / h * of.area.real

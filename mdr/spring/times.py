@@ -19,7 +19,7 @@ class Times(NamedTuple):
     """Factors of arms and modes over the step, known once, and over the part of it that is followed now."""
 
     h: float  #: length of the step
-    arms: Array  #: (2, 9, J) what arms come to that are held on p t + q t²: see `fill`
+    arms: Array  #: (6, 9, J) what arms come to that are held on p t + q t²: see `fill`; rows from 2 on: returned.py
     decay: Array  #: (2, K) exp(-mu_k t)
 
 
@@ -66,7 +66,7 @@ def times_of(h, modes, arms):
         J = arms.rho.size
     if modes is not None:
         K = modes.mu.size
-    times = Times(h, np.empty((2, 9, J)), np.empty((2, K)))
+    times = Times(h, np.empty((6, 9, J)), np.empty((2, K)))
     fill(h, modes, arms, times, STEP)
     return times
 

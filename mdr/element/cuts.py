@@ -1,0 +1,150 @@
+"""A step of springs with arms in the plane, cut into parts until their force is right.
+
+Each part is stepped at once and in two halves: what they differ by tells its error, and the length of the next part. A
+memory that relaxes within the step is met from the start on, in parts that grow. The parts depend on nothing but the
+springs, the motion and the time.
+"""
+
+# mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mdr.spring.contact import Springs
+from mdr.spring.copies import put
+from mdr.spring.motion import glassy
+from mdr.spring.path import Path, size_of
+from mdr.spring.returned import fill_stages, returned
+from mdr.spring.times import STEP, tools_of
+from mdr.tools.arrays import Array
+from mdr.tools.jit import inner
+
+_inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
+
+ACCURACY = 1e-4  #: of the normal force: by which the force in the plane may change when a part of a step is halved
+MOST_PARTS = 5000  #: of a step; one that needs more is refused
+IN_FLIGHT = 1e-3  #: share of the mean normal force of a part in what its error is compared with: contact may end in it
+ROUNDING = 1e-12  #: of the extensions, that no part gets below
+OF_AREA = 0.1  #: by which an error of the mean force of a part counts less than one at its end
+LEAST_SHARE = 1e-15  #: of a step, below which no part is cut
+
+
+class Pulled(NamedTuple):
+    """Force of springs after a step, and its area over the time."""
+
+    end: complex
+    normal_end: float
+    area: complex
+    normal_area: float
+
+
+class Cuts(NamedTuple):
+    """The parts of a step, each a power of two of it: so they stay as they are where the motion changes a little."""
+
+    shares: Array  #: (MOST_PARTS,) of each in the time; it is stepped in two halves
+    n: Array  #: (1,) how many, a whole number
+
+
+@_inline
+def part(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each):
+    """A part of a step, at once."""
+    path = Path(z_0, z_1, 0.0, x_1, 0.0j, None)
+    of = returned(s, e, Springs(contact.gap, contact.w, None), path, T, modes, arms, tools, each)
+    return Pulled(of.end, of.normal_end, of.area, of.normal_area)
+
+
+@_inline
+def staged(h, modes, arms, tools):
+    """The tools of a part of length h."""
+    new = tools_of(h, modes, arms, tools)
+    fill_stages(h, STEP, arms, new.times)
+    return new
+
+
+@_inline
+def halves(s, e, h, z_0, z_1, x_1, contact, T, modes, arms, tools, each):
+    """A part of length h in two halves."""
+    new = staged(0.5 * h, modes, arms, tools)
+    one = part(s, e, z_0, z_1, x_1, contact, T, modes, arms, new, each)
+    two = part(s, e, z_0 + 0.5 * h * z_1, z_1, x_1, contact, T, modes, arms, new, each)
+    return Pulled(two.end, two.normal_end, one.area + two.area, one.normal_area + two.normal_area)
+
+
+@_inline
+def first_length(s, e, z_0, z_1, x_1, dt, contact, T, arms):
+    """Length of the first part: the shortest time of an arm whose force matters, and of a dashpot."""
+    h, force, fast = dt, 0.0, abs(z_1) + size_of(x_1)
+    for i in range(contact.gap.size):
+        force += contact.w[i] * max(min(z_0, z_0 + z_1 * dt) - contact.gap[i], 0.0)
+    if T > 0.0:
+        h = min(h, T / glassy(arms))
+    for j in range(arms.rho.size):
+        stretch = 0.0
+        for i in range(contact.gap.size):
+            stretch += contact.w[i] * (abs(s[1 + j, i]) + size_of(e[1 + j, i]))
+        if arms.rho[j] * (stretch + fast / arms.rate[j]) > ACCURACY * force:
+            h = min(h, 1.0 / arms.rate[j])
+    return h
+
+
+@_inline
+def size_and_miss(e, other, w, arms):
+    """Extensions, each as the force that it gives; and by how much two of them differ."""
+    size = miss = 0.0
+    for j in range(e.shape[0]):
+        of_row, off = 0.0, 0.0
+        for i in range(w.size):
+            of_row += w[i] * size_of(e[j, i])
+            off += w[i] * size_of(e[j, i] - other[j, i])
+        rho = arms.rho[j - 1] if j > 0 else 1.0
+        size, miss = size + rho * of_row, miss + rho * off
+    return size, miss
+
+
+@_inline
+def cut(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each, cuts):
+    """Springs s, e over a step: what they are Pulled by. cuts: None, or filled."""
+    dt, share, done, n = tools.times.h, 1.0, 0.0, 0
+    s_1, e_1, s_2, e_2 = np.empty_like(s), np.empty_like(e), np.empty_like(s), np.empty_like(e)
+    of = Pulled(0.0j, 0.0, 0.0j, 0.0)
+    first = first_length(s, e, z_0, z_1, x_1, dt, contact, T, arms)
+    while dt * share > first:
+        share *= 0.5
+    while done < 1.0 and n < MOST_PARTS:
+        share = min(share, 1.0 - done)
+        h, z = dt * share, z_0 + done * dt * z_1
+        put(s, s_1)
+        put(e, e_1)
+        put(s, s_2)
+        put(e, e_2)
+        one = part(s_1, e_1, z, z_1, x_1, contact, T, modes, arms, staged(h, modes, arms, tools), each)
+        two = halves(s_2, e_2, h, z, z_1, x_1, contact, T, modes, arms, tools, each)
+        size, miss = size_and_miss(e_2, e_1, contact.w, arms)
+        miss = max(miss, OF_AREA * size_of(two.area - one.area) / h)
+        allowed = ACCURACY * (two.normal_end + IN_FLIGHT * two.normal_area / h) + ROUNDING * size
+        if not allowed < miss < np.inf:  # what is not finite goes on, and is told
+            put(s_2, s)
+            put(e_2, e)
+            of = Pulled(two.end, two.normal_end, of.area + two.area, of.normal_area + two.normal_area)
+            if cuts is not None:
+                cuts.shares[n], cuts.n[0] = share, n + 1
+            n, done = n + 1, done + share
+            share *= 4.0 if 64.0 * miss <= allowed else 2.0 if 8.0 * miss <= allowed else 1.0
+        elif share > LEAST_SHARE:
+            share *= 0.5 if miss <= 8.0 * allowed else 0.25
+        else:
+            break
+    return of if done == 1.0 else Pulled(of.end * np.nan, of.normal_end, of.area, of.normal_area)
+
+
+@_inline
+def cut_again(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each, cuts):
+    """The same in the parts that are there."""
+    dt, done, of = tools.times.h, 0.0, Pulled(0.0j, 0.0, 0.0j, 0.0)
+    for k in range(cuts.n[0]):
+        share = cuts.shares[k]
+        two = halves(s, e, dt * share, z_0 + done * dt * z_1, z_1, x_1, contact, T, modes, arms, tools, each)
+        of, done = Pulled(two.end, two.normal_end, of.area + two.area, of.normal_area + two.normal_area), done + share
+    return of
