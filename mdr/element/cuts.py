@@ -1,8 +1,8 @@
 """A step of springs with arms in the plane, cut into parts until their force is right.
 
-Each part is stepped at once and in two halves: what they differ by tells its error, and the length of the next part. A
-memory that relaxes within the step is met from the start on, in parts that grow. The parts depend on nothing but the
-springs, the motion and the time.
+Each part is stepped with every stretch of contact at once, and in two halves: what they differ by tells its error, and
+the length of the next part. A memory that relaxes within the step is met from the start on, in parts that grow. The
+parts depend on nothing but the springs, the motion and the time.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -17,17 +17,17 @@ from mdr.spring.copies import put
 from mdr.spring.motion import glassy
 from mdr.spring.path import Path, size_of
 from mdr.spring.returned import fill_stages, returned
-from mdr.spring.times import STEP, tools_of
+from mdr.spring.times import STEP, Times, Tools, tools_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import inner
 
 _inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
 
-ACCURACY = 1e-4  #: of the normal force: by which the force in the plane may change when a part of a step is halved
+ACCURACY = 3e-4  #: of the normal force: by which the force in the plane may change when a part of a step is halved
 MOST_PARTS = 5000  #: of a step; one that needs more is refused
-IN_FLIGHT = 1e-3  #: share of the mean normal force of a part in what its error is compared with: contact may end in it
-ROUNDING = 1e-12  #: of the extensions, that no part gets below
+IN_FLIGHT = 1e-2  #: share of its mean that is added to the normal force at the end of a part: contact may end in it
 OF_AREA = 0.1  #: by which an error of the mean force of a part counts less than one at its end
+ROUNDING = 1e-10  #: of the unit of depth and of the way in a part, added too
 LEAST_SHARE = 1e-15  #: of a step, below which no part is cut
 
 
@@ -43,33 +43,19 @@ class Pulled(NamedTuple):
 class Cuts(NamedTuple):
     """The parts of a step, each a power of two of it: so they stay as they are where the motion changes a little."""
 
-    shares: Array  #: (MOST_PARTS,) of each in the time; it is stepped in two halves
+    shares: Array  #: (MOST_PARTS,) of each in the time; contact in it goes in two halves
     n: Array  #: (1,) how many, a whole number
 
 
 @_inline
-def part(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each):
-    """A part of a step, at once."""
+def part(s, e, z_0, z_1, x_1, pieces, contact, T, modes, arms, tools, each):
+    """A part of a step, each stretch of contact in so many pieces. tools: of the part."""
+    (h, of_arms, decay, _), room = tools
+    tools = Tools(Times(h, of_arms, decay, pieces), room)
+    fill_stages(h, STEP, arms, tools.times)
     path = Path(z_0, z_1, 0.0, x_1, 0.0j, None)
     of = returned(s, e, Springs(contact.gap, contact.w, None), path, T, modes, arms, tools, each)
     return Pulled(of.end, of.normal_end, of.area, of.normal_area)
-
-
-@_inline
-def staged(h, modes, arms, tools):
-    """The tools of a part of length h."""
-    new = tools_of(h, modes, arms, tools)
-    fill_stages(h, STEP, arms, new.times)
-    return new
-
-
-@_inline
-def halves(s, e, h, z_0, z_1, x_1, contact, T, modes, arms, tools, each):
-    """A part of length h in two halves."""
-    new = staged(0.5 * h, modes, arms, tools)
-    one = part(s, e, z_0, z_1, x_1, contact, T, modes, arms, new, each)
-    two = part(s, e, z_0 + 0.5 * h * z_1, z_1, x_1, contact, T, modes, arms, new, each)
-    return Pulled(two.end, two.normal_end, one.area + two.area, one.normal_area + two.normal_area)
 
 
 @_inline
@@ -90,17 +76,14 @@ def first_length(s, e, z_0, z_1, x_1, dt, contact, T, arms):
 
 
 @_inline
-def size_and_miss(e, other, w, arms):
-    """Extensions, each as the force that it gives; and by how much two of them differ."""
-    size = miss = 0.0
+def apart(e, other, w, arms):
+    """By how much two extensions differ, each as the force that it gives."""
+    total = 0.0
     for j in range(e.shape[0]):
-        of_row, off = 0.0, 0.0
-        for i in range(w.size):
-            of_row += w[i] * size_of(e[j, i])
-            off += w[i] * size_of(e[j, i] - other[j, i])
         rho = arms.rho[j - 1] if j > 0 else 1.0
-        size, miss = size + rho * of_row, miss + rho * off
-    return size, miss
+        for i in range(w.size):
+            total += rho * w[i] * size_of(e[j, i] - other[j, i])
+    return total
 
 
 @_inline
@@ -119,21 +102,22 @@ def cut(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each, cuts):
         put(e, e_1)
         put(s, s_2)
         put(e, e_2)
-        one = part(s_1, e_1, z, z_1, x_1, contact, T, modes, arms, staged(h, modes, arms, tools), each)
-        two = halves(s_2, e_2, h, z, z_1, x_1, contact, T, modes, arms, tools, each)
-        size, miss = size_and_miss(e_2, e_1, contact.w, arms)
-        miss = max(miss, OF_AREA * size_of(two.area - one.area) / h)
-        allowed = ACCURACY * (two.normal_end + IN_FLIGHT * two.normal_area / h) + ROUNDING * size
-        if not allowed < miss < np.inf:  # what is not finite goes on, and is told
+        new = tools_of(h, modes, arms, tools)
+        one = part(s_1, e_1, z, z_1, x_1, np.int64(1), contact, T, modes, arms, new, each)
+        two = part(s_2, e_2, z, z_1, x_1, np.int64(2), contact, T, modes, arms, new, each)
+        mean, least = two.normal_area / h, ROUNDING * (1.0 + h * (abs(z_1) + size_of(x_1)))
+        miss = apart(e_1, e_2, contact.w, arms) / (two.normal_end + IN_FLIGHT * mean + least)
+        miss = max(miss, OF_AREA * size_of(two.area - one.area) / (h * (mean + least)))
+        if not ACCURACY < miss < np.inf:  # what is not finite goes on, and is told
             put(s_2, s)
             put(e_2, e)
             of = Pulled(two.end, two.normal_end, of.area + two.area, of.normal_area + two.normal_area)
             if cuts is not None:
                 cuts.shares[n], cuts.n[0] = share, n + 1
             n, done = n + 1, done + share
-            share *= 4.0 if 64.0 * miss <= allowed else 2.0 if 8.0 * miss <= allowed else 1.0
+            share *= 4.0 if 64.0 * miss <= ACCURACY else 2.0 if 8.0 * miss <= ACCURACY else 1.0
         elif share > LEAST_SHARE:
-            share *= 0.5 if miss <= 8.0 * allowed else 0.25
+            share *= 0.5 if miss <= 8.0 * ACCURACY else 0.25
         else:
             break
     return of if done == 1.0 else Pulled(of.end * np.nan, of.normal_end, of.area, of.normal_area)
@@ -145,6 +129,7 @@ def cut_again(s, e, z_0, z_1, x_1, contact, T, modes, arms, tools, each, cuts):
     dt, done, of = tools.times.h, 0.0, Pulled(0.0j, 0.0, 0.0j, 0.0)
     for k in range(cuts.n[0]):
         share = cuts.shares[k]
-        two = halves(s, e, dt * share, z_0 + done * dt * z_1, z_1, x_1, contact, T, modes, arms, tools, each)
+        new, z = tools_of(dt * share, modes, arms, tools), z_0 + done * dt * z_1
+        two = part(s, e, z, z_1, x_1, np.int64(2), contact, T, modes, arms, new, each)
         of, done = Pulled(two.end, two.normal_end, of.area + two.area, of.normal_area + two.normal_area), done + share
     return of

@@ -217,7 +217,11 @@ def steps(states, us, h, contact, mark, pull, tangents):
     force = contact.force_x, contact.force_x, contact.force_z
     parts = parts_of(states.shape[1], n)
     room, alone, K, way = room_for(parts, n), room_for(parts, 1), np.empty((3, 3)), np.empty(3)
-    s, e, cuts = np.empty((parts, n)), np.empty((parts, n), np.complex128), Cuts(np.empty(MOST_PARTS), np.zeros(1, np.int64))
+    s, e, cuts = (
+        np.empty((parts, n)),
+        np.empty((parts, n), np.complex128),
+        Cuts(np.empty(MOST_PARTS), np.zeros(1, np.int64)),
+    )
     new_s, new_e = np.empty_like(s), np.empty_like(e)
     for b in range(us.shape[0]):
         state, finite = states[b], True

@@ -23,15 +23,18 @@ from mdr.tools.jit import inner
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 _lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 
-LAST = 1.0 - 1.0 / np.sqrt(2.0)  #: part of the time of the second stage, and of the first up to where it is met
-TO_NODE, TO_TURN = 2, 4  #: rows of Times, beside those of the step and of a part: to LAST of them, and to what is left
+LAST = 1.0 - 1.0 / np.sqrt(2.0)  #: part of a time in which its second stage acts, and up to which the first is met
+STAGES = 2  #: first of the rows of Times for a piece of the step, and of a part of it; three each
+PIECE, NODE, TURN = 0, 1, 2  #: these: for all of a piece, up to LAST of it, and up to where the second stage begins
 
 
 @_inline
 def fill_stages(t, k, arms, times):
-    """Fill the rows of Times that the two stages of a time t need, k as of `fill`."""
-    fill(LAST * t, None, arms, times, TO_NODE + k)
-    fill((1.0 - LAST) * t, None, arms, times, TO_TURN + k)
+    """Fill the rows of Times for a piece of the time t, k as of `fill`."""
+    piece, at = t / times.pieces, STAGES + 3 * k
+    fill(piece, None, arms, times, at + PIECE)
+    fill(LAST * piece, None, arms, times, at + NODE)
+    fill((1.0 - LAST) * piece, None, arms, times, at + TURN)
 
 
 @_inline
@@ -43,28 +46,38 @@ def slip_back(g, R, soft):
 
 @_inline
 def rub_returned(s, e, i, w, pressing, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact, as rub_line of line.py; top and surface on straight paths."""
+    """Friction of spring i over a stretch of contact, as rub_line of line.py, in `tools.times.pieces`; top and surface
+    are on straight paths.
+    """
     (z, _), (x, _), t, k, begun, _, _ = pressing
     if k == PART:
         fill_stages(t, k, arms, tools.times)
-    u, node, turn = LAST * t, TO_NODE + k, TO_TURN + k
-    soft, still = u + T, 0.0j
+    piece, at = t / tools.times.pieces, STAGES + 3 * k
+    u, now, straight = LAST * piece, begun, 0.0j
+    soft = u + T
     if arms is not None:
         for j in range(arms.rho.size):
-            soft += arms.rho[j] * tools.times.arms[node, 1, j]
-    R = held_force(s, i, z, 0.0, u, node, T, tools, arms).v_1
-    pressed, pressed_moment = hold(s, i, z, 0.0, t, k, T, tools, arms)
-    slip = slip_back(held_force(e, i, x, still, u, node, T, tools, arms).v_1, R, soft)
-    area, moment = hold(e, i, x - slip, still, t - u, turn, T, tools, arms)
-    g = held_force(e, i, x, still, u, node, T, tools, arms).v_1
-    slip = slip_back(g, end_force(s, i, z, T, arms), soft)
-    late, late_moment = hold(e, i, x - slip, still, u, node, T, tools, arms)
-    mode, n, vel = STICK, 0.0j, size_of(slip)
-    stuck = t if vel == 0.0 else 0.0
-    if vel > 0.0:
-        mode, n = SLIP, g * (1.0 / size_of(g))
-    moment += begun * area + (begun + t - u) * late + late_moment
-    return Friction(mode, n, vel, area + late, moment, stuck, 0.5 * t * stuck, pressed, begun * pressed + pressed_moment)
+            soft += arms.rho[j] * tools.times.arms[at + NODE, 1, j]
+    area, moment, stuck, stuck_moment, pressed, pressed_moment = 0.0j, 0.0j, 0.0, 0.0, 0.0, 0.0
+    mode, n, vel = STICK, 0.0j, 0.0
+    for _ in range(tools.times.pieces):
+        R = held_force(s, i, z, 0.0, u, at + NODE, T, tools, arms).v_1
+        A, B = hold(s, i, z, 0.0, piece, at + PIECE, T, tools, arms)
+        pressed, pressed_moment = pressed + A, pressed_moment + now * A + B
+        slip = slip_back(held_force(e, i, x, straight, u, at + NODE, T, tools, arms).v_1, R, soft)
+        early, lever = hold(e, i, x - slip, straight, piece - u, at + TURN, T, tools, arms)
+        moment += now * early + lever
+        g = held_force(e, i, x, straight, u, at + NODE, T, tools, arms).v_1
+        slip = slip_back(g, end_force(s, i, z, T, arms), soft)
+        late, lever = hold(e, i, x - slip, straight, u, at + NODE, T, tools, arms)
+        area, moment, vel = area + early + late, moment + (now + piece - u) * late + lever, size_of(slip)
+        mode, n = STICK, 0.0j
+        if vel > 0.0:
+            mode, n = SLIP, g * (1.0 / size_of(g))
+        else:
+            stuck, stuck_moment = stuck + piece, stuck_moment + piece * (now + 0.5 * piece)
+        now += piece
+    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, pressed_moment)
 
 
 @_lent

@@ -19,8 +19,9 @@ class Times(NamedTuple):
     """Factors of arms and modes over the step, known once, and over the part of it that is followed now."""
 
     h: float  #: length of the step
-    arms: Array  #: (6, 9, J) what arms come to that are held on p t + q t²: see `fill`; rows from 2 on: returned.py
+    arms: Array  #: (8, 9, J) what arms come to that are held on p t + q t²: see `fill`; rows from 2 on: returned.py
     decay: Array  #: (2, K) exp(-mu_k t)
+    pieces: int  #: that a stretch of contact is cut into, by returned.py alone
 
 
 class Room(NamedTuple):
@@ -66,7 +67,7 @@ def times_of(h, modes, arms):
         J = arms.rho.size
     if modes is not None:
         K = modes.mu.size
-    times = Times(h, np.empty((6, 9, J)), np.empty((2, K)))
+    times = Times(h, np.empty((8, 9, J)), np.empty((2, K)), np.int64(1))
     fill(h, modes, arms, times, STEP)
     return times
 

@@ -4,6 +4,7 @@
     strength [n] [level]  the same on faces with a shear strength, round or level
     errors [n] [coarse | resonant]  true error of slide() against finer steps and springs
     theorems [n]          what no settled run may contradict, on random bodies
+    steps [n] [seed] [any | nan]  steps of elements with arms, any material, beside the same in 400 parts
     ways [n] [quick]      one motion written in six ways: no function may tell them apart
 
 Each takes minutes for its n contacts; its docstring says more.
