@@ -7,7 +7,7 @@ over that of all springs. So Coulomb's law has no coefficient.
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from mdr.tools.linked import LINKED
 
 _jit = compiled(nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 _inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
+_LINKED: Any = {"error_model": "numpy", "fastmath": {"reassoc", "contract"}, **LINKED}
 
 N_HEAD = 4  #: numbers of a state before its springs: the last u, and the work; behind them is the mark of its element
 NOT_FINITE, OF_ANOTHER, IMPOSSIBLE, BEYOND = 1, 2, 3, 4  #: faults of a state, and of what comes out of a step
@@ -59,7 +60,7 @@ def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts
     return of(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts)
 
 
-@overload(straight, jit_options={"error_model": "numpy", "fastmath": {"reassoc", "contract"}, **LINKED})
+@overload(straight, jit_options=_LINKED)
 def _(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
     return _at_once if isinstance(arms, NoneType) or not isinstance(e.dtype, Complex) else _cut
 

@@ -196,8 +196,9 @@ def slide_record(
     Notes
     -----
     Elastic bodies that move along one line at given depths are followed exactly between samples, others in steps of
-    second order. A load is met at each step by Newton's method. With a dashpot the force jumps where a spring touches;
-    where a load lies within such a jump, F_z is next to it. The force at a sample of depth is the mean of both sides.
+    second order; with arms in the plane these are cut, however long, as those of a ContactElement. A load is met at
+    each step by Newton's method. With a dashpot the force jumps where a spring touches; where a load lies within such a
+    jump, F_z is next to it. The force at a sample of depth is the mean of both sides.
 
     Examples
     --------

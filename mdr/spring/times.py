@@ -21,7 +21,7 @@ class Times(NamedTuple):
     h: float  #: length of the step
     arms: Array  #: (8, 9, J) what arms come to that are held on p t + q t²: see `fill`; rows from 2 on: returned.py
     decay: Array  #: (2, K) exp(-mu_k t)
-    pieces: int  #: that a stretch of contact is cut into, by returned.py alone
+    pieces: np.int64  #: that a stretch of contact is cut into, by returned.py alone
 
 
 class Room(NamedTuple):

@@ -15,7 +15,7 @@ ARM = mdr.Prony(E_inf=2e6, arms=((RHO[0] * 2e6, THETA[0]),), nu=0.3)
 REACH = MU_0 * ARM.mindlin_ratio * DEPTH
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2, 6))
 def test_a_step_is_the_same_in_parts(seed):
     """Arms of 1 ns to 1000 s, steps of 1e-3 to 1e6 of their times, 1e-5 of the depth and all of it."""
     for step in walk(np.random.default_rng(seed), 5):
