@@ -38,9 +38,9 @@ class Step:
         return float(np.abs(F - G)[:2].max() / (MU_0 * G[2])) if G[2] > 0 else float(np.abs(F).max() > 0)
 
     def energy(self, state):
-        """What energies are compared with [J]: what the springs store, and the work of the step."""
+        """What energies are compared with [J]: what springs store, and the work so far, in which heat is rounded."""
         stored = self.element.stored(self.state) + self.element.stored(state)
-        return float(stored + abs(state[3] - self.state[3]))
+        return float(stored + abs(state[3]) + abs(self.state[3]))
 
 
 def a_material(rng):

@@ -23,7 +23,7 @@ from mdr.tools.jit import inner
 
 _inline = inner(error_model="numpy", fastmath={"reassoc", "contract"})
 
-ACCURACY = 3e-4  #: of the normal force: by which the force in the plane may change when a part of a step is halved
+ACCURACY = 1e-4  #: of the normal force: by which the force in the plane may change when a part of a step is halved
 MOST_PARTS = 5000  #: of a step; one that needs more is refused
 IN_FLIGHT = 1e-2  #: share of its mean that is added to the normal force at the end of a part: contact may end in it
 OF_AREA = 0.1  #: by which an error of the mean force of a part counts less than one at its end
