@@ -146,7 +146,7 @@ class ContactElement(Record):
         u : array_like of float, shape (3,) or (m, 3)
             Position x, y and depth z at the end of the step [m]; at z <= 0 the contact is open.
         tangent : bool
-            Whether dF/du is asked for too; it costs up to seven times as much, twenty with many arms in a long step.
+            Whether dF/du is asked for too; it costs up to seven times as much, thirty with many arms.
 
         Returns
         -------
