@@ -25,6 +25,7 @@ from mdr.tools.notation import is_unit, listed, scale_of
 _BRACKETS = re.compile(r"\s*(?:\[(?P<square>[^\])\[(]*)[\])]|[(<{](?P<round>[^\])\[(<>}]*)[\])>}])\s*")
 _BEHIND = re.compile(r"(?P<name>.*?)(?:\s*/\s*(?P<slash>[^\s\[\]()][^\[\]()]*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))")
 _LOGARITHM = re.compile(r"(?:log|lg|ln)(?:_?10)?(?=[\s_(\[.])", re.IGNORECASE)
+LONGEST = 1000  #: letters of a head that are looked at
 SPELLINGS = 4  #: how well a name fits, best first
 FITS, BARE, MISFITS = range(3)  #: a unit of the column, none where one is needed, another
 #: what is measured in a unit of the library
@@ -98,7 +99,7 @@ class Head(NamedTuple):
     @classmethod
     def of(cls, cell: str, below: str = "") -> Head:
         """Name and unit in a cell, or in one below it."""
-        whole, unsure = cell.strip(), None
+        whole, unsure = " ".join(cell[:LONGEST].split()), None
         brackets = list(_BRACKETS.finditer(whole))
         for found in brackets:
             unit = (found["square"] or found["round"] or "").strip()
@@ -266,12 +267,13 @@ class Header:
     def _take_named(self) -> None:
         """The columns whose names are in the header, the best first."""
         open_ones = [one for one in self.columns if one.name not in {*self.at, *self.called}]
-        ranks = {(one.name, i): self._rank(one, i) for one in open_ones for i in self._free()}
+        free = self._free()
+        ranks = {one.name: {i: rank for i in free if (rank := self._rank(one, i))} for one in open_ones}
         for fit, spelling in product((FITS, BARE, MISFITS), range(SPELLINGS)):
             for column in (one for one in open_ones if one.name not in self.at):
-                fitting = {i: rank for i in self._free() if (rank := ranks[column.name, i]) is not None}
-                if found := [i for i, rank in fitting.items() if rank[:2] == (fit, spelling)]:
-                    self._take(column, found, fitting[found[0]][2])
+                of, taken = ranks[column.name], set(self.at.values())
+                if found := [i for i, rank in of.items() if rank[:2] == (fit, spelling) and i not in taken]:
+                    self._take(column, found, of[found[0]][2])
 
     def _ask(self) -> set[str]:
         """Decide, or ask about, cells whose name may mean a missing column or another quantity; those asked for."""
@@ -322,7 +324,8 @@ class Header:
         self.at[column.name], self.written[column.name] = found[0], unit
 
     def _free(self) -> list[int]:
-        return [i for i in range(len(self.heads)) if i not in self.at.values()]
+        taken = set(self.at.values())
+        return [i for i in range(len(self.heads)) if i not in taken]
 
     def _rank(self, column: Column, index: int) -> tuple[int, int, str] | None:
         """How well unit and spelling of a cell fit, and its unit; None for another name."""

@@ -26,7 +26,7 @@ SEARCHED = 1000  #: lines that tell the separator
 FAR = 200  #: lines that tell of a table: rows, and words above lines such as "Rate, 1000"
 _DIGITS = r"\d{1,3}(?:[.,'’]\d{3})+(?:[.,]\d+)?|\d+[.,]?\d*|[.,]\d+"  # with or without separators of thousands
 _NUMBER = re.compile(rf"[+−-]?(?:{_DIGITS})(?:e[+-]?\d+)?|[+-]?inf(?:inity)?|∞|nan", re.IGNORECASE)
-_KEYED = re.compile(r"[\s#%]*(?P<key>\w[\w ]*?)\s*[:=]\s*(?P<cells>.+)")  # "# units: m N m"
+_KEYED = re.compile(r"[\s#%]*\w[\w ]{0,40}[:=](?P<cells>.+)")  # "# units: m N m"
 _LETTER = re.compile(r"[^\W\d]|[°µμ%]")
 _UNITS = re.compile(r"\bunits?\b|[\W_]units?(?![a-z])", re.IGNORECASE)  #: in the key of a line of units
 
@@ -97,8 +97,8 @@ class Block:
 
     def names(self) -> Iterator[Names]:
         """What may be its header, the nearest first."""
-        words = [*self.beyond, *self.above]
-        of_units = [line for line in words if _UNITS.search(re.split(r"[:=\t;,]", line.text, maxsplit=1)[0])]
+        words = [*self.beyond, *self.above[-SEARCHED:]]
+        of_units = [line for line in words if _UNITS.search(re.split(r"[:=\t;,]", line.text[:60], maxsplit=1)[0])]
         cut = [(line, self.heads(line)) for line in self.above[-8:] if _LETTER.search(line.text)]
         units = [cells if _are_units(cells := _bare(heads)) else [] for _, heads in cut]
         for i in sorted(range(len(cut)), key=lambda i: (bool(units[i]), -i)):

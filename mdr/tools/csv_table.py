@@ -29,6 +29,7 @@ from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import count
 from mdr.tools.csv_header import Column, Header, Place, fault, repr_of
 from mdr.tools.csv_layout import (
+    FAR,
     SEARCHED,
     SEPARATORS,
     Block,
@@ -239,9 +240,8 @@ def _with_header(
     heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
     header = Header(heads, names.units, columns, reading.units or {}, reading.columns or {}, above)
     top = math.inf if names.line is None else names.line.number
-    for line in block.above:
-        cells = block.heads(line)
-        if line.number > top and not line.is_comment and not same_units(cells, names.units):
+    for line in block.above[-FAR:]:
+        if line.number > top and not line.is_comment and not same_units(block.heads(line), names.units):
             if any(map(is_like_number, block.cells(line))):
                 header.faults.append(f"line {line.number}, {short(line.text)}, between header and rows is no row")
             elif any(map(str.isalnum, line.text)):
