@@ -19,10 +19,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.tools.arrays import Array
-from mdr.tools.notation import is_unit
+from mdr.tools.notation import decimal_mark, is_unit
+from mdr.tools.progress import progress
 
 SEPARATORS = ("\t", ";", "|", ",", " ")  #: " " is any run of blanks
 SEARCHED = 1000  #: lines that tell the separator
+AT_ONCE = 100_000  #: lines that are parsed between two words on progress
 FAR = 200  #: lines that tell of a table: rows, and words above lines such as "Rate, 1000"
 _DIGITS = r"\d{1,3}(?:[.,'’]\d{3})+(?:[.,]\d+)?|\d+[.,]?\d*|[.,]\d+"  # with or without separators of thousands
 _NUMBER = re.compile(rf"[+−-]?(?:{_DIGITS})(?:e[+-]?\d+)?|[+-]?inf(?:inity)?|∞|nan", re.IGNORECASE)
@@ -159,16 +161,19 @@ def blocks(lines: Iterable[Line], separator: str) -> list[Block]:
     return found
 
 
-def numbers_at_once(lines: Sequence[Line], separator: str) -> Array | None:
-    """The numbers of lines that hold nothing else, in equal count; None for others."""
-    texts = [line.text for line in lines]
-    if separator != "," and any("," in text for text in texts[:1]):
+def numbers_at_once(lines: Sequence[Line], separator: str, what: str = "") -> Array | None:
+    """The numbers of lines that hold nothing else, in equal count; None for others. Progress says `what` is done."""
+    texts, found = [line.text for line in lines], []
+    if separator != "," and decimal_mark(cell for text in texts[:FAR] for cell in cells_of(text, separator))[0] == ",":
         if any("." in text for text in texts):
             return None
-        texts = [text.replace(",", ".") for text in texts]  # decimal commas
+        texts = [text.replace(",", ".") for text in texts]
+    by = separator.strip(" ") or None
     with suppress(ValueError):
-        found = np.loadtxt(texts, delimiter=separator.strip(" ") or None, comments=None, quotechar='"', ndmin=2)
-        return found if np.all(np.isfinite(found)) else None
+        for i in progress(range(0, len(texts), AT_ONCE), what):
+            found.append(np.loadtxt(texts[i : i + AT_ONCE], delimiter=by, comments=None, quotechar='"', ndmin=2))
+        numbers = np.concatenate(found)
+        return numbers if np.all(np.isfinite(numbers)) else None
     return None
 
 
@@ -242,7 +247,8 @@ def cells_of(line: str, separator: str) -> list[str]:
             return [cell for cell in cells if cell] if separator == " " else cells
     if separator == " ":
         return line.split()
-    return [cell.strip() for cell in line.split(separator)] if line else []
+    cells = line.split(separator) if line else []
+    return [cell.strip() for cell in cells] if " " in line or "\t" in line or "\xa0" in line else cells
 
 
 #: letters of units in the tables of letters of other countries, and what a table is called

@@ -212,7 +212,7 @@ def _cut(lines: list[Line], separator: str, source: str) -> list[Block]:
     if len(lines) > SEARCHED and (tables := blocks(lines[:SEARCHED], separator)):
         last = tables[-1]
         rows = lines[lines.index(last.rows[0]) :]
-        last.numbers = numbers_at_once(rows, separator)
+        last.numbers = numbers_at_once(rows, separator, f"reading {source}")
         if last.numbers is not None and last.numbers.shape[1] == last.width:
             last.rows = rows
             return tables

@@ -622,3 +622,26 @@ def test_a_refusal_shows_the_lines_all_faults_and_what_to_give(tmp_path):
     ]
     with pytest.raises(ValueError, match=r"line 3: x is .*\n.*line 4: y is no number"):
         mdr.read_record(path, columns={"t": "Time", "a_x": 2, "a_z": 3}, units={"t": "s", "a_x": "g", "a_z": "g"})
+
+
+@pytest.mark.parametrize(("by", "mark"), [(",", "."), ("\t", ","), (" ", ".")])
+def test_a_long_table_is_that_of_its_rows(tmp_path, by, mark):
+    """Parsed at once; one row with a fault in the midst is found, and one that is lost is not passed over."""
+    t, a = 1e-3 * np.arange(3000), np.random.default_rng(0).normal(size=3000)
+    lines = (f"t [s]{by}a_z[g]\n" + rows(t, a, by=by, mark=mark)).splitlines(keepends=True)
+    record = mdr.read_record(written(tmp_path, "".join(lines)))
+    assert_allclose([record["t"], record["a_z"] / G], [t, a], rtol=1e-14)
+    for fault in (f"2{mark}5\n", f"2{mark}5{by}No Data\n", f"2{mark}5{by}1{by}1\n"):
+        path = written(tmp_path, "".join([*lines[:2501], fault, *lines[2502:]]))
+        with pytest.raises(ValueError, match=r"data\.csv: line 2502: "):
+            mdr.read_record(path)
+
+
+def test_one_of_several_tables_is_chosen_by_its_number_or_by_words_above_it(tmp_path):
+    text = "".join(f"Run {k}\nv [mm/s];mu\n1;0,{k}\n2;0,{k + 1}\n" for k in (3, 5))
+    path = written(tmp_path, text)
+    for table, cof in ((1, [0.3, 0.4]), (2, [0.5, 0.6]), ("run 5", [0.5, 0.6])):
+        assert_allclose(mdr.read_friction_data(path, table=table).cof, cof)
+    for table, words in ((None, "holds 2 tables"), (3, "names none of 2 tables"), ("run", "names several of 2 tables")):
+        with pytest.raises(ValueError, match=f'{words}, choose one: table=1, lines 3 to 4, below "Run 3"; table=2'):
+            mdr.read_friction_data(path, table=table)

@@ -88,7 +88,7 @@ def test_skip_is_lines_of_the_file():
 def test_numbers_at_once_are_those_of_cells():
     lines = lines_of("1;2,5\n-3e2;,5\n", None)
     assert_array_equal(numbers_at_once(lines, ";"), [[1, 2.5], [-300, 0.5]])
-    for text in ("1;2\n3\n", "1;x\n", "1;nan\n", "1;1_0\n", "1;0x1\n", "1,5;2.5\n", "1;\n"):
+    for text in ("1,234;2,345\n", "1;2\n3\n", "1;x\n", "1;nan\n", "1;1_0\n", "1;0x1\n", "1,5;2.5\n", "1;\n"):
         assert numbers_at_once(lines_of(text, None), ";") is None, text
 
 
