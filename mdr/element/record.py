@@ -83,7 +83,7 @@ class SlideRecord(Summarised, Tabled, ArrayRecord):
 
     @property
     def loss_cof(self) -> float:
-        """Work in the plane over load and way [-], that is the integral of F_x dx + F_y dy over that of F_z |ds|.
+        """Work in the plane over load and way [-], the integral of F_x dx + F_y dy over that of F_z ds.
 
         Of a stroke to and fro it is the coefficient of friction, where `cof`, the mean of both ways, is about zero. It
         counts what springs store too, which a way that is long beside their deflection makes small. NaN where nothing

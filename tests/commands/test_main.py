@@ -616,7 +616,7 @@ def test_what_is_printed_of_rest_is_of_the_pull_that_the_case_has(tmp_path, caps
     path.write_text(SPOOL.replace('"pull"', '"tool"'))
     rows = {line.split()[0]: line for line in words_of(capsys, ["velocity", str(path)]).out.splitlines()}
     assert "under a rigid pull that stands still" in rows["band"]
-    assert "of a tool that is held rigidly" in rows["chi"]
+    assert "over the deflection at which springs slip, of a tool" in rows["chi"]
 
 
 @pytest.fixture

@@ -4,16 +4,16 @@ A step is exact but for the parabolas that motion and body take in it, and a sum
 places along the row where stick turns to slip. Both errors are of second order or better in the numbers of steps and
 springs, though they do not fall evenly, as events come at any place in a step. So four coarser runs, companions, go
 beside a run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both; (4) three eighths of
-both. Each has one step more, so that no two divide the period at the same instants: what an event just behind a
-common instant does would be missed by all alike. Where the run shows that springs begin to slip back at a place of the
-row, (2) to (4) have a cut there: rows of which no spring stands beyond it would agree. Run minus (1) tells the error of
-the steps, (1) minus (2) that of the springs, which counts one and a half times; at second order each is three times the
-true error. The bound is their sum; on a face with a strength both count one and a half times more. Two runs may agree
-by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second order, nor less than
-3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in the plane, less than a tenth
-of what is asked for. Added is what no companion shows. Where all this is more than is asked for, steps or springs are
-doubled, as these companions tell, until a run would be too dear. Once, in the place of more springs, the row is cut
-where the run shows that they begin to slip back.
+both. Each has one step more in each oscillation, so that no two divide it at the same instants: what an event just
+behind a common instant does would be missed by all alike. Where the run shows that springs begin to slip back at a
+place of the row, (2) to (4) have a cut there: rows of which no spring stands beyond it would agree. Run minus (1)
+tells the error of the steps, (1) minus (2) that of the springs, which counts one and a half times; at second order
+each is three times the true error. The bound is their sum; on a face with a strength both count one and a half times
+more. Two runs may agree by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second order,
+nor less than 3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in the plane, less
+than a tenth of what is asked for. Added is what no companion shows. Where all this is more than is asked for, steps or
+springs are doubled, as these companions tell, until a run would be too dear. Once, in the place of more springs, the
+row is cut where the run shows that they begin to slip back.
 
 Where a run has found its periodic state, the next one begins its search there.
 """
@@ -66,7 +66,7 @@ def default_steps(case: SlidingContact) -> int:
     body on the contact, if that can be afforded. In the plane three eighths of them resolve how dashpots stop it too:
     a body that is stopped within a step is solved for together with its springs, which fails where friction turns.
     """
-    plain, rate = N_STEPS * _harder(case)[1] * int(np.ceil(oscillations(case) - 1e-9)), fast_ratio(case)
+    plain, rate = N_STEPS * _harder(case)[1] * _one_each(case), fast_ratio(case)
     resolved = 0 if np.isinf(rate) else _rounded(2.02 * RESOLVED * rate)
     stop = stopping_rate(case) if case.moves_across else 0.0
     stopped = _rounded(2.02 * np.pi * 8 / 3 * stop) if 2 * np.pi * stop <= MOST_STEPS else 0
@@ -119,7 +119,7 @@ class _Runs:
         """
         known = self.near is not None and self.near.v_0 == self.v_0
         if not known and self.searched and resolution.start == "full_slip":
-            half = companions(resolution).half
+            half = companions(self.case, resolution).half
             first = steady(self.case, self.v_0, half, None, self.near, 1)
             if first.settling.solved and first.settling.settled:
                 self.ends[half] = self.near = first
@@ -131,7 +131,7 @@ class _Runs:
 
     def half(self, main: MarchEnd) -> MarchEnd:
         """The companion with half of the steps and springs."""
-        return self.beside(main, companions(main.resolution).half)
+        return self.beside(main, companions(self.case, main.resolution).half)
 
     def _at(self, resolution: Resolution, n_periods: int | None, most: int | None) -> MarchEnd:
         if resolution not in self.ends:
@@ -155,13 +155,18 @@ class Companions(NamedTuple):
     less: Resolution  #: three quarters of half of both
 
 
-def companions(resolution: Resolution, alike: float | None = None) -> Companions:
+def companions(case: SlidingContact, resolution: Resolution, alike: float | None = None) -> Companions:
     """Those beside a run. alike: gap at which the rows of fewer springs are cut, if not that of the run."""
     shares = (4, 8), (4, 4), (6, 6), (3, 3)  # eighths of steps and springs
     n_t, n = resolution.steps, resolution.n_springs
     cut = resolution if alike is None else resolution._replace(alike=alike)
-    rows = (resolution, cut, cut, cut)
-    return Companions(*(row.of_size(k * n_t // 8 + 1, m * n // 8) for row, (k, m) in zip(rows, shares, strict=True)))
+    rows, more = (resolution, cut, cut, cut), _one_each(case)
+    return Companions(*(row.of_size(k * n_t // 8 + more, m * n // 8) for row, (k, m) in zip(rows, shares, strict=True)))
+
+
+def _one_each(case: SlidingContact) -> int:
+    """Steps of a period that are one in each oscillation."""
+    return int(np.ceil(oscillations(case) - 1e-9))
 
 
 def resolution_of(
@@ -259,7 +264,9 @@ def _finer(main: MarchEnd, missed: Missed) -> Resolution:
 
 def _that_touch(case: SlidingContact, resolution: Resolution) -> Resolution:
     """The resolution, with more steps where they are free and the contact too brief for those of companions."""
-    while not (case.keeps_contact or all(at_hand(case, one)[1].normal.mean > 0 for one in companions(resolution))):
+    while not (
+        case.keeps_contact or all(at_hand(case, one)[1].normal.mean > 0 for one in companions(case, resolution))
+    ):
         if not resolution.free[1] or resolution.steps >= MOST_STEPS:
             raise too_coarse(resolution.steps)
         resolution = resolution._replace(steps=2 * resolution.steps)
@@ -281,9 +288,11 @@ class Missed(NamedTuple):
 
 def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
     """Errors of a run, as its companions tell them."""
-    beside, as_one = companions(main.resolution, _to_be_cut(main)), main.scaled.springs.gap.size == 1
+    beside, as_one = companions(runs.case, main.resolution, _to_be_cut(main)), main.scaled.springs.gap.size == 1
     if as_one:  # all springs of a punch: (1) and (2) would be one run, and are of different steps instead
-        beside = beside._replace(steps=beside.half, half=beside.half.of_size(beside.half.steps + 2))
+        beside = beside._replace(
+            steps=beside.half, half=beside.half.of_size(beside.half.steps + 2 * _one_each(runs.case))
+        )
     steps, half, more = (runs.beside(main, one) for one in (beside.steps, beside.half, beside.more))
     by_chance = [Companion(_apart(main, more), BY_CHANCE), Companion(_apart(main, half))]
     _, less = at_hand(runs.case, beside.less)
