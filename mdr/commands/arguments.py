@@ -109,16 +109,18 @@ def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
 def in_options(message: str, options: Iterable[str]) -> str:
     """A message in which arguments of a reader, as columns={"t": 1}, are options, --columns t=1."""
 
-    def pairs(given: re.Match[str]) -> str:
-        found = re.findall(r'"([^"]*)": (?:"([^"]*)"|([^,"]+))', given[2])
-        return " ".join([f"--{given[1]}", *(shlex.quote(f"{name}={word or bare}") for name, word, bare in found)])
+    def pairs(name: str, given: str) -> str:
+        found = re.findall(r'"([^"]*)": (?:"([^"]*)"|([^,"]+))', given)
+        return " ".join([f"--{name}", *(shlex.quote(f"{key}={word or bare}") for key, word, bare in found)])
 
     def option(given: re.Match[str]) -> str:
-        value = given[2].strip('()"').replace(",", " ")
-        return " ".join([f"--{given[1].replace('_', '-')}", *value.split()]).removesuffix(" True")
+        if given[1]:
+            return pairs(given[1], given[2])
+        value = given[5].strip('()"').replace(",", " ")
+        return " ".join([f"--{given[4].replace('_', '-')}", *value.split()]).removesuffix(" True")
 
-    message = re.sub(r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?", pairs, message)
-    return re.sub(rf'\b({"|".join(options)})=(\([^()]*\)|"[^"]*"|[\w.+-]*)', option, message)
+    of_pairs = r"\b(columns|units)=\{([^{}]*)\}(,(?= units=))?"
+    return re.sub(rf'{of_pairs}|\b({"|".join(options)})=(\([^()]*\)|"[^"]*"|[\w.+-]*)', option, message)
 
 
 def _which(text: str) -> int | str:

@@ -256,6 +256,7 @@ class _Model:
         self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...], held: Mapping[str, Any]
     ) -> None:
         self.case, self.data, self.free, self.held = case, data, free, held
+        self.over = _axis(case, data)
         self.error = 1.0 if data.error is None else data.error
         self.best: _Best | None = None
         self.jac = np.zeros((data.v_0.size, len(free)))  #: (n, k), the last that was made
@@ -330,13 +331,23 @@ class _Model:
         try:
             if self.data.values is None:
                 return friction_without_bound(self.case_at(x), self.data.v_0, *size)
-            over = path_of(self.case, self.data.over)
-            points = zip(self.data.values.tolist(), self.data.v_0, strict=True)
-            cases = ((case_of(self.case, {**self.held, **self.values(x), over: value}), v_0) for value, v_0 in points)
+            given, points = {**self.held, **self.values(x)}, zip(self.data.values.tolist(), self.data.v_0, strict=True)
+            cases = ((case_of(self.case, {**given, self.over: value}), v_0) for value, v_0 in points)
             return np.concatenate([friction_without_bound(case, np.array([v_0]), *size) for case, v_0 in cases])
         except ValueError as refusal:
             where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(x).items())
             raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None
+
+
+def _axis(case: SlidingContact, data: FrictionData) -> str:
+    """The path of what the data are over; empty of the velocity."""
+    try:
+        return "" if data.values is None else path_of(case, data.over)
+    except ValueError:
+        part = "shake" if data.over in ("du_x", "du_y") else "oscillation"
+        raise ValueError(
+            f"the data are over {data.over}, which this case lacks: give it a {part} that has it"
+        ) from None
 
 
 def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float, stopped: str) -> Fit:

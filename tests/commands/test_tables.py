@@ -5,6 +5,7 @@ import pytest
 from answers import words_of
 
 import mdr
+from mdr.commands.arguments import in_options
 from mdr.given.case_file import parse_case
 
 REST = """
@@ -106,3 +107,9 @@ def test_what_is_told_of_a_file_names_options(capsys):
 )
 def test_what_does_not_fit_is_refused_in_options(command, words, capsys):
     assert words in words_of(capsys, command.split(), 2).err
+
+
+def test_a_way_out_in_options_is_written_once():
+    said = 'columns={"v_0": "Geschw", "cof": "mu"}, units={"v_0": "mm/s"}, or v_0=2e-3, flip=True'
+    options = "--columns v_0=Geschw cof=mu --units v_0=mm/s, or --v-0 2e-3, --flip"
+    assert in_options(said, ["v_0", "flip"]) == options

@@ -184,3 +184,9 @@ def test_friction_over_an_amplitude_at_one_velocity_is_fitted(over):
     assert found.plot().get_xlabel() == f"{over} [SI]"
     with pytest.raises(ValueError, match="the data are over"):
         _ = found.curve
+
+
+def test_data_over_what_a_case_lacks_are_refused_before_the_search():
+    data = mdr.FrictionData([1e-3, 1e-3], [0.3, 0.2], over="du_x", values=[1e-6, 2e-6])
+    with pytest.raises(ValueError, match="the data are over du_x, which this case lacks: give it a shake"):
+        mdr.fit(contact("flat"), data, ["mu_0"])
