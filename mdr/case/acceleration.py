@@ -45,6 +45,9 @@ class _Record(NamedTuple):
     a: Array  #: (n_t,) less its mean
     span: float  #: [s] with the last step
     passes: Ticker
+    rounded: float = (
+        0.0  #: mean square, at most, of what samples lack that are rounded, as a period of their own may show
+    )
 
     def most(self, omega: float) -> int:
         """Harmonics below half of the sampling rate, by what the record can tell apart."""
@@ -80,7 +83,8 @@ def series_of(t: ArrayLike, a: ArrayLike, frequency: float | None, order: int = 
     name, unit = DERIVATIVES[order]
     t, a = sampled(t, a, order)
     span = (t[-1] - t[0]) * t.size / (t.size - 1)
-    record = _Record(name, unit, t - t.mean(), a - a.mean(), span, Ticker(f"frequency of {name}", parts="passes"))
+    ticker, rounded = Ticker(f"frequency of {name}", parts="passes"), np.diff(np.unique(a)).min(initial=np.inf) ** 2 / 4
+    record = _Record(name, unit, t - t.mean(), a - a.mean(), span, ticker, float(rounded))
     if frequency is None:
         omega = _fundamental(record)
     else:
@@ -247,7 +251,7 @@ def _score(record: _Record, omega: float) -> tuple[float, _Record]:
     """Bayes' information criterion of the series at a frequency, and what it leaves out."""
     fit, n = _kept(_sums(record, omega, record.most(omega))), record.t.size
     a = _rest(record, omega, fit) - fit.drift * record.t / record.span
-    least = max(n * float(a.var()), ROUNDING * float(record.a @ record.a))
+    least = max(n * float(a.var()), n * record.rounded, ROUNDING * float(record.a @ record.a))
     return n * np.log(least) + 2 * fit.orders.size * np.log(n), record._replace(a=a - a.mean())
 
 

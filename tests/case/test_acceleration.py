@@ -183,3 +183,13 @@ def test_an_acceleration_or_a_record_that_is_given_for_a_period_of_depth_is_told
         warnings.simplefilter("error")
         mdr.PeriodicMotion.of(1e-3 + 1e-3 * period, 300.0)
         mdr.PeriodicMotion.of(1e-3 * (period**2 + 0.2 * period), 300.0)  # the second is the loudest, not the only one
+
+
+def test_rounded_samples_have_no_period_of_their_own():
+    """100 samples a millisecond of a tone of 13 kHz are rounded alike in each millisecond."""
+    t = 1e-5 * np.arange(20_000)
+    a = np.round(9.8 * np.cos(2 * np.pi * 13e3 * t), 3)
+    motion = mdr.PeriodicMotion.from_acceleration(t, a, u_z0=5e-6)
+    assert motion.omega == pytest.approx(2 * np.pi * 13e3, rel=1e-9)
+    a += np.round(0.1 * np.cos(2 * np.pi * 1e3 * t), 3)  # and this is one
+    assert mdr.PeriodicMotion.from_acceleration(t, a, u_z0=5e-6).omega == pytest.approx(2 * np.pi * 1e3, rel=1e-9)
