@@ -90,7 +90,7 @@ def rig(
         be said where there are both, and only there. `load` then is all that presses, the weight of the sled included.
         On a shaken support: whether all that presses is a mass that lies on it, which is so unless a sled of another
         weight is given; False is a sled of mass m that a soft spring presses on.
-    shake : Shake, optional
+    shake : InPlaneOscillation or InPlaneMotion, optional
         Motion in the plane besides the pull; where nothing else vibrates, at this frequency.
     hold : {None, "depth", "load"}
         What stays with an amplitude of depth or acceleration: "depth", about which a stiff drive moves, where the load

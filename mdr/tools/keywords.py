@@ -54,6 +54,8 @@ class Offering:
                 return object.__getattribute__(self, name)  # as Python tells it; of a property, what fails in it
             raise NoSuch(f"{type(self).__name__!r} object", name, self.__dir__)
 
+        __iter__ = None  # an index alone would make it one to loop over
+
         def __getitem__(self, index: Any) -> Any:
             own = vars(self)
             lists = [name for name, value in own.items() if isinstance(value, tuple) or getattr(value, "ndim", 0)]

@@ -60,7 +60,8 @@ def test_a_result_is_no_list_and_says_the_way():
     with pytest.raises(TypeError, match=r"CofCurve is no list; take .cof$"):
         CURVE["cof"]
     with pytest.raises(TypeError, match=r"Cone is no list; take its values, as .theta"):
-        list(CASE.indenter)
+        CASE.indenter[0]
     with pytest.raises(TypeError, match=r"RigidPull is no list; take its values$"):
-        list(CASE.pull)
+        CASE.pull[0]
     assert np.array([CASE, CASE], dtype=object).shape == (2,)
+    assert not np.iterable(CASE)
