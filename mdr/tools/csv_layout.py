@@ -11,7 +11,7 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -83,6 +83,13 @@ class Block:
         words = [one.text.strip(" #%\t;,") for one in self.above if len(self.heads(one)) < max(self.width, 2)]
         return words[-1] if words else ""
 
+    def stand_below(self, before: Block) -> None:
+        """What a new table has from the one before it."""
+        self.beyond = [] if before.is_table else [*before.beyond, *before.above][-FAR:]
+        heads = (len(self.heads(line)) for line in self.above if _LETTER.search(line.text))
+        if before.width == self.width and self.width not in heads:
+            self.named = before.named or before
+
     def cells(self, line: Line) -> list[str]:
         """The cells of a row."""
         return cells_of(line.text, self.separator)
@@ -102,7 +109,7 @@ class Block:
         words = [*self.beyond, *self.above[-SEARCHED:]]
         of_units = [line for line in words if _UNITS.search(re.split(r"[:=\t;,]", line.text[:60], maxsplit=1)[0])]
         cut = [(line, self.heads(line)) for line in self.above[-8:] if _LETTER.search(line.text)]
-        units = [cells if _are_units(cells := _bare(heads)) else [] for _, heads in cut]
+        units = [cells if _most(is_unit, cells := bare(heads)) else [] for _, heads in cut]
         for i in sorted(range(len(cut)), key=lambda i: (bool(units[i]), -i)):
             near = next(filter(None, [*units[i + 1 :], *units[max(i - 1, 0) : i]]), [])
             told = near or self._units_beside(cut[i][1], of_units)
@@ -115,9 +122,9 @@ class Block:
     def _units_beside(self, names: Sequence[str], of_units: Sequence[Line]) -> list[str]:
         """The units in the last line whose first word says that they are: it stands in the first column, or before."""
         for line in reversed(of_units):
-            own, count = _bare(cells_of(line.text, self.separator)), len(filled(names))
+            own, count = bare(cells_of(line.text, self.separator)), len(filled(names))
             behind = own[1:] if len(filled(own)) > count else ["", *own[1:]]
-            for cells in (_bare(self._keyed(line)), behind):
+            for cells in (bare(self._keyed(line)), behind):
                 if any(map(is_unit, cells)):
                     return cells
         return []
@@ -147,17 +154,19 @@ def blocks(lines: Iterable[Line], separator: str) -> list[Block]:
     words: list[Line] = []
     for line in lines:
         cells = cells_of(line.text, separator)
-        if not is_row(cells) or line.is_comment:
+        if not _is_row(cells) or line.is_comment:
             words.append(line)
             continue
         if not found or (words and _part(words, found[-1])):
-            found.append(_below(found[-1] if found else None, Block(separator, words), len(cells)))
-        elif words:
+            found.append(Block(separator, words, widths=Counter([len(cells)])))
+            if len(found) > 1:
+                found[-1].stand_below(found[-2])
+        else:
             found[-1].rows += [one for one in words if not one.is_comment]
             found[-1].remarks += [one for one in words if one.is_comment]
+            found[-1].widths[len(cells)] += 1
         words = []
         found[-1].rows.append(line)
-        found[-1].widths[len(cells)] += 1
     return found
 
 
@@ -177,19 +186,6 @@ def numbers_at_once(lines: Sequence[Line], separator: str, what: str = "") -> Ar
     return None
 
 
-def _below(before: Block | None, block: Block, width: int) -> Block:
-    """A table that begins below another, with what it has from there."""
-    if before is not None:
-        block.beyond = [] if before.is_table else [*before.beyond, *before.above][-FAR:]
-        block.widths[width] += 1
-        if before.width == width and not any(
-            len(block.heads(line)) == width for line in block.above if _LETTER.search(line.text)
-        ):
-            block.named = before.named or before
-        block.widths.clear()
-    return block
-
-
 def share_of_numbers(block: Block) -> tuple[float, int]:
     """The share of numbers in the cells of its rows that are as wide as most, and their count."""
     width = block.width
@@ -204,7 +200,7 @@ def _part(words: Sequence[Line], block: Block) -> bool:
     return any(one.text in above if one.is_comment else not any(map(is_like_number, block.cells(one))) for one in words)
 
 
-def _bare(cells: Sequence[str]) -> list[str]:
+def bare(cells: Sequence[str]) -> list[str]:
     """Cells without brackets."""
     return [cell.strip(" []()/\t\"'<>") for cell in cells]
 
@@ -215,23 +211,16 @@ def filled(cells: Sequence[str]) -> Sequence[str]:
     return cells[: last + 1]
 
 
-def same_units(cells: Sequence[str], units: Sequence[str]) -> bool:
-    """Whether the cells of a line are these units."""
-    return _bare(cells) == list(units)
+def _most(are: Callable[[str], bool], cells: Sequence[str]) -> bool:
+    """Whether half of the cells, or more, are so."""
+    full = [cell for cell in cells if cell.strip()]
+    return 0 < len(full) <= 2 * sum(map(are, full))
 
 
-def _are_units(cells: Sequence[str]) -> bool:
-    """Whether half of the cells, or more, are units."""
-    full = [cell for cell in cells if cell]
-    return 0 < len(full) <= 2 * sum(map(is_unit, full))
-
-
-def is_row(cells: Sequence[str]) -> bool:
-    """Whether half of the cells, or more, are numbers."""
+def _is_row(cells: Sequence[str]) -> bool:
     with suppress(ValueError):
         return bool(list(map(float, cells)))
-    full = [cell for cell in cells if cell.strip()]
-    return 0 < len(full) <= 2 * sum(map(is_like_number, full))
+    return _most(is_like_number, cells)
 
 
 def is_like_number(cell: str) -> bool:
@@ -253,36 +242,32 @@ def cells_of(line: str, separator: str) -> list[str]:
 
 #: letters of units in the tables of letters of other countries, and what a table is called
 _CODINGS = {"cp1252": "Latin-1", "shift_jis": "Shift-JIS", "gbk": "GBK"}
-#: first bytes of files that are no text, and what to do
+#: what files are that are no text, and what to do; and their first bytes
 _KINDS = {
-    b"PK\x03\x04": "an Excel workbook, or another zip archive: save the sheet as CSV",
-    b"\xd0\xcf\x11\xe0": "an Excel workbook: save the sheet as CSV",
-    b"MATLAB 5.0": "a MATLAB file: write its columns as CSV, with writematrix or numpy.savetxt",
-    b"\x89HDF": "an HDF5 or MATLAB file: write its columns as CSV, with writematrix or numpy.savetxt",
-    b"CDF\x01": "a netCDF file: write its columns as CSV",
-    b"\x93NUMPY": "a NumPy array: write it with numpy.savetxt and a header",
-    b"RIFF": "a sound file (WAV): write its samples as CSV, and give rate=",
-    b"TDSm": "a LabVIEW TDMS file: export it as text or CSV",
-    b"\x1f\x8b": "a gzip archive: unpack it",
-    b"BZh": "a bzip2 archive: unpack it",
-    b"7z\xbc\xaf": "a 7-Zip archive: unpack it",
-    b"%PDF": "a PDF: type its table as CSV, or ask for the data",
-    b"\x89PNG": "an image: give the numbers behind it as CSV",
-    b"\xff\xd8\xff": "an image: give the numbers behind it as CSV",
-    b"GIF8": "an image: give the numbers behind it as CSV",
-    b"II*\x00": "an image: export its heights as CSV",
-    b"MM\x00*": "an image: export its heights as CSV",
-    b"PAR1": "a Parquet file: write it as CSV",
-    b"{\\rtf": "a document: save it as plain text",
-    **dict.fromkeys(
-        (b"<html", b"<HTML", b"<?xml", b"<!DOC", b"<table"), "a page of HTML or XML: save its sheet as CSV"
-    ),
+    "an Excel workbook, or another zip archive: save the sheet as CSV": (b"PK\x03\x04",),
+    "an Excel workbook: save the sheet as CSV": (b"\xd0\xcf\x11\xe0",),
+    "a MATLAB file: write its columns as CSV, with writematrix or numpy.savetxt": (b"MATLAB 5.0",),
+    "an HDF5 or MATLAB file: write its columns as CSV, with writematrix or numpy.savetxt": (b"\x89HDF",),
+    "a netCDF file: write its columns as CSV": (b"CDF\x01",),
+    "a NumPy array: write it with numpy.savetxt and a header": (b"\x93NUMPY",),
+    "a sound file (WAV): write its samples as CSV, and give rate=": (b"RIFF",),
+    "a LabVIEW TDMS file: export it as text or CSV": (b"TDSm",),
+    "a gzip archive: unpack it": (b"\x1f\x8b",),
+    "a bzip2 archive: unpack it": (b"BZh",),
+    "a 7-Zip archive: unpack it": (b"7z\xbc\xaf",),
+    "a PDF: type its table as CSV, or ask for the data": (b"%PDF",),
+    "an image: give the numbers behind it as CSV": (b"\x89PNG", b"\xff\xd8\xff", b"GIF8"),
+    "an image: export its heights as CSV": (b"II*\x00", b"MM\x00*"),
+    "a Parquet file: write it as CSV": (b"PAR1",),
+    "a document: save it as plain text": (b"{\\rtf",),
+    "a page of HTML or XML: save its sheet as CSV": (b"<html", b"<HTML", b"<?xml", b"<!DOC", b"<table"),
 }
 
 
 def kind_of(data: bytes) -> str:
     """What a file is that is no text, by its first bytes, and what to do; empty for a text."""
-    known = next((kind for first, kind in _KINDS.items() if data.lstrip(b"\xef\xbb\xbf \r\n").startswith(first)), "")
+    start = data[:1000].lstrip(b"\xef\xbb\xbf \r\n")
+    known = next((kind for kind, firsts in _KINDS.items() if start.startswith(firsts)), "")
     if known or b"\0" not in data or data[:2] in (b"\xff\xfe", b"\xfe\xff") or _is_utf_16(data):
         return known
     return f"no text, it has a zero byte at {data.index(0)}: export it as text or CSV"

@@ -19,6 +19,7 @@ from bisect import bisect
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from io import StringIO
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -35,12 +36,12 @@ from mdr.tools.csv_layout import (
     Block,
     Line,
     Names,
+    bare,
     blocks,
     filled,
     is_like_number,
     lines_of,
     numbers_at_once,
-    same_units,
     share_of_numbers,
     told_separator,
 )
@@ -132,14 +133,15 @@ class Found(NamedTuple):
     @property
     def fits(self) -> tuple[int, ...]:
         """How well the header fits what is looked for."""
-        aligned = len(self.names.cells) == self.block.width
-        sound, table = bool(self.header.at) and not self.header.faults, self.block.is_table
-        return self.is_whole, sound, table, aligned, len(self.header.at), -len(self.header.faults)
+        columns, faults = len(self.header.at), len(self.header.faults)
+        return self.is_whole, columns > 0 == faults, columns, -faults
 
     @property
     def rank(self) -> tuple[float, ...]:
-        """The same, and whether its cells are numbers."""
-        return *self.fits, *share_of_numbers(self.block)
+        """The same, whether it is a table below its header, and whether its cells are numbers."""
+        whole, sound, *counts = self.fits
+        aligned = len(self.names.cells) == self.block.width
+        return whole, sound, self.block.is_table, aligned, *counts, *share_of_numbers(self.block)
 
     @property
     def told(self) -> str:
@@ -193,7 +195,7 @@ MOST_ABOVE = 10_000  #: letters above a table in which words may tell of it
 def _found_in(lines: list[Line], told: str, source: str, columns: Sequence[Column], reading: Reading) -> list[Found]:
     """The tables, cut by the separator with which one fits best."""
     best: tuple[Any, str] | None = None
-    for part in (lines[:SEARCHED], lines) if len(lines) > SEARCHED else (lines,):
+    for part in (lines[:SEARCHED], lines):
         for separator in told or SEPARATORS:
             ranks = [one.rank for one in _with_headers(blocks(part, separator), columns, reading)]
             if ranks and (best is None or max(ranks) > best[0]):
@@ -228,8 +230,7 @@ def _with_headers(tables: Sequence[Block], columns: Sequence[Column], reading: R
         row, of = block.cells(block.rows[0]), found.get(id(block.named))
         ways = [of.names] if of else block.names()
         tried = [_with_header(block, names, row, columns, reading, above) for names in ways]
-        best = max(tried, key=lambda one: (*one.fits[:2], *one.fits[4:]))
-        found[id(block)] = best
+        found[id(block)] = max(tried, key=lambda one: one.fits)
     return list(found.values())
 
 
@@ -241,7 +242,7 @@ def _with_header(
     header = Header(heads, names.units, columns, reading.units or {}, reading.columns or {}, above)
     top = math.inf if names.line is None else names.line.number
     for line in block.above[-FAR:]:
-        if line.number > top and not line.is_comment and not same_units(block.heads(line), names.units):
+        if line.number > top and not line.is_comment and bare(block.heads(line)) != names.units:
             if any(map(is_like_number, block.cells(line))):
                 header.faults.append(f"line {line.number}, {short(line.text)}, between header and rows is no row")
             elif any(map(str.isalnum, line.text)):
@@ -363,17 +364,15 @@ def _values_of(found: Found, source: str) -> tuple[dict[str, Sequence[float] | A
     if block.numbers is not None and width >= block.width:
         return {one.column.name: block.numbers[:, one.at] for one in places}, []
     least, whose = min(block.width, heads or block.width), "most rows" if width == block.width else "the header"
-    columns: list[list[str]] = [[] for _ in places]
-    faults = []
-    for line in block.rows:
-        row = block.cells(line)
-        if len(row) < least or (len(row) != width and (exact or any(row[width:]))):
-            more = block.separator == "," and len(row) > width
-            comma = "; if a comma is the decimal mark, separate them by ;" if more else ""
-            faults.append(f"{source}: line {line.number}: has {len(row)} cells, {whose} {width}{comma}")
-        for place, cells in zip(places, columns, strict=True):
-            cells.append(row[place.at] if place.at < len(row) else "")
-    mark, wrong = decimal_mark(cell for cells in columns for cell in cells)
+    rows = [block.cells(line) for line in block.rows]
+    comma = "; if a comma is the decimal mark, separate them by ;" if block.separator == "," else ""
+    faults = [
+        f"{source}: line {line.number}: has {len(row)} cells, {whose} {width}{comma if len(row) > width else ''}"
+        for line, row in zip(block.rows, rows, strict=True)
+        if len(row) < least or (len(row) != width and (exact or any(row[width:])))
+    ]
+    columns = [[row[one.at] if one.at < len(row) else "" for row in rows] for one in places]
+    mark, wrong = decimal_mark(chain(*columns))
     faults += [f"{source}: {wrong}"] if wrong else []
     pairs = zip(places, columns, strict=True)
     return {

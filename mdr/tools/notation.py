@@ -190,8 +190,7 @@ def _instead(text: str) -> str:
 
 def converted(values: T, symbol: str, unit: str) -> T:
     """Values in the unit of a symbol that is known, in that of the library."""
-    found, zero = in_unit(values, scale_of(symbol, unit) or 1.0), ZEROS.get(_same(symbol))
-    return found if zero is None else found + zero
+    return in_unit(values, scale_of(symbol, unit) or 1.0) + ZEROS.get(_same(symbol), 0.0)
 
 
 def in_unit(values: T, scale: float) -> T:
@@ -200,24 +199,14 @@ def in_unit(values: T, scale: float) -> T:
     return values / whole if whole and math.isclose(whole * scale, 1, rel_tol=EXACT) else values * scale
 
 
+_ALIKE = str.maketrans("µμ²¹⁻\u212b", "uu21-\u00c5", "^ ·.*")
+
+
 @lru_cache(maxsize=2**12)
 def _same(symbol: str) -> str:
     """A symbol without what does not matter in it: m/s/s, ms-2, m s⁻² and m/sec^2 are m/s2."""
-    same = {
-        "µ": "u",
-        "μ": "u",
-        "²": "2",
-        "¹": "1",
-        "⁻": "-",
-        "^": "",
-        " ": "",
-        "·": "",
-        ".": "",
-        "*": "",
-        "\u212b": "\u00c5",
-    }
     text = re.sub(r"[^\W\d_]+", lambda word: WORDS.get(word[0].casefold(), word[0]), symbol)
-    text = "".join(same.get(letter, letter) for letter in text).replace("/s/s", "/s2")
+    text = text.translate(_ALIKE).replace("/s/s", "/s2")
     text = re.sub(r"(?<=[a-zA-Z])-(?=[a-zA-Z])", "", text)  # Pa-s
     text = re.sub(r"(?<=.)s-([12])$", lambda power: "/s2" if power[1] == "2" else "/s", text)
     return re.sub(r"^([kMG]?Pa|m?m)-1$", r"1/\1", text)
