@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mdr.files.case_files import record_of
-from mdr.files.measurements import LIKELY_MODULUS, read_table, require_rows
+from mdr.files.measurements import LIKELY_MODULUS, read_table
 from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals, instantaneous_of
 from mdr.files.toml_text import parse_toml, read_text, tried
 from mdr.tools.csv_header import Column, fault
@@ -25,15 +25,14 @@ MODULI = (
     Column("E_j", ("E_i", "modulus"), "Pa", needed=False, bare=True),
     Column("G_j", ("G_i", "G", "G(i)", "G(j)", "Gm", "G_m", "Gk", "shear modulus"), "Pa", needed=False, bare=True),
 )
+TAU = ("tau_i", "tau", "tau(i)", "taum", "taui", "τ", "relaxation time")
+BETA = ("beta_i", "beta", "β", "beta(i)", "decay constant")
 ARMS = (
     *MODULI,
     Column("k_j", ("k_i", "k"), needed=False),  # shares of a bulk modulus, which finite-element programs have beside
+    Column("tau_j", TAU, "s", bare=True, empty=np.inf, instead="beta_j [1/s], 1/tau_j", others=("beta_j",)),
+    Column("beta_j", BETA, "1/s", needed=False, bare=True),
 )
-TAU = Column(
-    "tau_j", ("tau_i", "tau", "tau(i)", "taum", "taui", "τ", "relaxation time"), "s", bare=True, empty=np.inf,
-    instead="beta_j [1/s], 1/tau_j",
-)  # fmt: skip
-BETA = Column("beta_j", ("beta_i", "beta", "β", "beta(i)", "decay constant"), "1/s", bare=True)
 
 
 def from_table(
@@ -49,27 +48,18 @@ def from_table(
         raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
         raise fault(name, "a CSV table has no Poisson's ratio; give nu=")
-    try:
-        table = read_table(path, (*ARMS, TAU, BETA._replace(needed=False)), reading)
-    except ValueError as refusal:
-        try:
-            table = read_table(path, (*ARMS, BETA), reading)
-        except ValueError:
-            raise refusal from None
+    table = read_table(path, ARMS, reading)
     if (beta := table.values.get("beta_j")) is not None:
         with np.errstate(divide="ignore"):
             tau = table.values.setdefault("tau_j", 1 / beta)
-            require_rows(table, np.isclose(1 / beta, tau, rtol=ROUNDED), "beta_j must be 1/tau_j; leave one out")
+            table.require(np.isclose(1 / beta, tau, rtol=ROUNDED), "beta_j must be 1/tau_j; leave one out")
     return {**_from_csv(table, nu, instantaneous_of(E_0, G_0, nu)), "nu": nu}
 
 
 def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
-    kinds = [one.name for one in MODULI if one.name in table.values]
-    if not kinds:
-        raise table.lacks("no E_j", "E_j [MPa], tau_j [s], or G_j of shear, or shares g_j", "E_j")
-    if len(kinds) > 1:
-        raise table.fault(f"{' and '.join(kinds)}: give one")
-    (kind,), tau, E = kinds, table.values["tau_j"], table.values[kinds[0]]
+    example = "E_j [MPa], tau_j [s], or G_j of shear, or shares g_j"
+    kind = table.one_of([(one,) for one in MODULI], "no E_j", example, "E_j")[0].name
+    tau, E = table.values["tau_j"], table.values[kind]
     if not np.all(good := (E >= 0) & (tau > 0)):
         i, unit = int(np.argmin(good)), "" if kind == "g_j" else " Pa"
         what = f"must have {kind} >= 0{unit} and tau_j > 0 s, got {E[i]:.6g}{unit} and {tau[i]:.6g} s"

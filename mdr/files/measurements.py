@@ -149,14 +149,14 @@ def read_moduli(
     wanted = [one._replace(given="nu=") if nu is not None and one in SHEAR else one for one in MODULI]
     read = read_table(path, wanted, Reading(units, columns, skip, table))
     found = read.values
-    storage, loss, kind = _components(read, nu is not None)
-    if kind is None:
-        raise read.lacks("no storage modulus", "f [Hz], E' [MPa], E'' [MPa], or G', G'' of shear", "storage", "loss")
-    stretch = 2 * (1 + poisson_ratio("nu", nu)) if kind is SHEAR else 1.0
+    example = "f [Hz], E' [MPa], E'' [MPa], or G', G'' of shear"
+    kind = read.one_of((TENSION, SHEAR), "no storage modulus", example, "storage", "loss")
+    stretch = stretch_of(read, kind, (TENSION, SHEAR), nu)
+    storage, loss = _components(read, kind)
     for name, values in {"frequency": found["omega"], "storage modulus": storage}.items():
-        require_rows(read, values > 0, f"{name} must be positive")
+        read.require(values > 0, f"{name} must be positive")
     sign = "" if np.any(loss > 0) else "; all are: turn the sign of the column"
-    require_rows(read, loss >= 0, f"loss must not be negative{sign}")
+    read.require(loss >= 0, f"loss must not be negative{sign}")
     if wlf is None:
         taken = _at_temperature(read, temperature)
         omega, modulus = found["omega"][taken], stretch * (storage + 1j * loss)[taken]
@@ -167,40 +167,26 @@ def read_moduli(
     return DynamicModuli(omega[order], modulus.real[order], modulus.imag[order])
 
 
-def _components(table: Table, of_shear: bool) -> tuple[Any, Any, Sequence[Column] | None]:
-    """Storage and loss modulus, and which they are, from what the file has of modulus, loss tangent and phase."""
+def _components(table: Table, kind: Sequence[Column]) -> tuple[Array, Array]:
+    """Storage and loss modulus of a kind, from what the file has of modulus, loss tangent and phase."""
     found = table.values
-    kinds = [kind for kind in (TENSION, SHEAR) if any(one.name in found for one in kind)]
-    if not kinds:
-        return None, None, None
-    if len(kinds) > 1:
-        of_tension, sheared = ([one.name for one in kind if one.name in found] for kind in kinds)
-        without = ", ".join(f'{repr_of(name)}: ""' for name in sheared)
-        raise table.fault(
-            f"{of_tension[0]} and {sheared[0]}: of tension and of shear; columns={{{without}}} leaves one out"
-        )
-    (kind,) = kinds
-    name = next(one.name for one in kind if one.name in found)
-    if of_shear and kind is TENSION:
-        shear = 'if it is of shear, columns={"G\'": ...}'
-        raise table.fault(f"nu= has no effect on {name}, a modulus in tension: leave it out; {shear}")
-    if kind is SHEAR and not of_shear:
-        raise table.fault(f"{name} is a shear modulus and needs Poisson's ratio, as E = 2 (1 + nu) G: give nu=")
     storage, loss, absolute = (found.get(one.name) for one in kind)
     tangent = found.get("tan_delta")
     if tangent is None and "phase" in found:
-        right = (found["phase"] >= 0) & (found["phase"] < math.pi / 2)
-        require_rows(table, right, "phase must lie between 0 and 90 degrees")
+        table.require((found["phase"] >= 0) & (found["phase"] < math.pi / 2), "phase must lie between 0 and 90 degrees")
         tangent = np.tan(found["phase"])
     if storage is None and absolute is not None and tangent is not None:
         storage = absolute / np.hypot(1, tangent)
     if storage is None:
-        raise table.lacks(f"{name} alone", "f [Hz], E' [MPa], E'' [MPa]", kind[0].name, kind[1].name)
-    if loss is None and tangent is None:
-        raise table.lacks("neither loss modulus, tan delta nor phase", "f [Hz], E' [MPa], tan delta", kind[1].name)
-    if loss is not None and tangent is not None:
+        alone = next(one.name for one in kind if one.name in found)
+        raise table.lacks(f"{alone} alone", "f [Hz], E' [MPa], E'' [MPa]", kind[0].name, kind[1].name)
+    if tangent is None:
+        if loss is None:
+            raise table.lacks("neither loss modulus, tan delta nor phase", "f [Hz], E' [MPa], tan delta", kind[1].name)
+        return storage, loss
+    if loss is not None:
         _require_same(table, loss / storage, tangent)
-    return storage, loss if loss is not None or tangent is None else storage * tangent, kind
+    return storage, storage * tangent if loss is None else loss
 
 
 def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:
@@ -213,13 +199,13 @@ def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:
     C_1, C_2 = positive("C1 of wlf", wlf[0]), positive("C2 of wlf", wlf[1], "in K")
     warmer = _celsius(table) - finite("temperature", temperature, "in °C")
     far = f"T is too far below temperature = {temperature:.6g} degC for these constants, a glass: leave such rows out"
-    require_rows(table, (C_2 + warmer > 0) & (C_1 * -warmer < MOST_SHIFTED * (C_2 + warmer)), far)
+    table.require((C_2 + warmer > 0) & (C_1 * -warmer < MOST_SHIFTED * (C_2 + warmer)), far)
     return np.asarray(10 ** (-C_1 * warmer / (C_2 + warmer)))
 
 
 def _celsius(table: Table) -> Array:
     """The temperatures in °C."""
-    require_rows(table, table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
+    table.require(table.values["T"] > 0, "T must be above 0 K (is it in degC?)")
     return table.values["T"] - ZEROS["degC"]
 
 
@@ -280,9 +266,14 @@ def _look_for_repeats(table: Table, taken: NDArray[np.intp], omega: Array, modul
         raise table.fault(f"{what}: if of several temperatures, {column}; else give one, or the mean")
 
 
-def require_rows(table: Table, good: NDArray[np.bool_], rule: str) -> None:
-    """Refuse the first row that is not good."""
-    if not np.all(good):
-        i = int(np.argmin(good))
-        row = ", ".join(f"{name} = {values[i]:.6g}" for name, values in table.values.items())
-        raise table.fault(f"line {table.lines[i]}: {rule}, got {row} in SI")
+def stretch_of(table: Table, kind: Sequence[Column], kinds: Sequence[Sequence[Column]], nu: float | None) -> float:
+    """E over the modulus of one of two kinds, of tension and of shear, which alone asks for Poisson's ratio."""
+    name, is_shear = next(one.name for one in kind if one.name in table.values), kind is not kinds[0]
+    if is_shear == (nu is not None):
+        return 1.0 if nu is None else 2 * (1 + poisson_ratio("nu", nu))
+    way_out = (
+        f"if it is one in {'tension' if is_shear else 'shear'}, columns={{{repr_of(kinds[not is_shear][0].name)}: ...}}"
+    )
+    if is_shear:
+        raise table.fault(f"{name} is of shear and needs Poisson's ratio: give nu=; {way_out}")
+    raise table.fault(f"nu= has no effect on {name}, which is of tension: leave it out; {way_out}")

@@ -33,7 +33,7 @@ def profile_points(
         raise ValueError(f'side must be "both", "left" or "right", got {side!r}')
     table = read_table(path, PROFILE[pitch is not None :], reading)
     if pitch is not None:
-        table.values["r"] = counted(table, PROFILE[0], reading, positive("pitch", pitch, "in m"), "pitch")
+        table.values["r"] = counted(table, PROFILE[0], positive("pitch", pitch, "in m"), "pitch")
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
     tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
     _refuse_repeated(table, x, tiny)

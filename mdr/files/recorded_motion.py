@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping
-from contextlib import suppress
 from os import PathLike
 from typing import Any
 
@@ -16,7 +14,7 @@ from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of, warn_of_size
+from mdr.tools.csv_table import Columns, Reading, Table, Units, warn_of_size
 from mdr.tools.messages import short
 from mdr.tools.notation import GRAVITY, is_number, parted, scale_of, shown
 from mdr.tools.warned import warn_outside
@@ -125,8 +123,7 @@ def read_record(
     """
     per_volt = {} if sensitivity is None else _per_volt(sensitivity)
     wanted = [one._replace(unit="V", likely=(0, math.inf)) if one.name in per_volt else one for one in MOTION]
-    reading = Reading(units, columns, skip, table)
-    found = read_table(path, wanted[rate is not None :], reading)
+    found = read_table(path, wanted[rate is not None :], Reading(units, columns, skip, table))
     record = found.values
     if not record.keys() - {"t"}:
         raise _nothing(found)
@@ -138,7 +135,7 @@ def read_record(
     if idle and (not isinstance(sensitivity, str) or idle == sorted(per_volt)):
         raise found.fault(f"sensitivity has no effect: the file has no {' and no '.join(idle)} in V")
     if rate is not None:
-        record = {"t": counted(found, TIME, reading, 1 / positive("rate", rate, "in Hz"), "rate"), **record}
+        record = {"t": counted(found, TIME, 1 / positive("rate", rate, "in Hz"), "rate"), **record}
     elif np.any(falls := np.diff(record["t"]) < 0):
         raise found.fault(f"t falls in line {found.lines[int(np.argmax(falls)) + 1]}: put the samples in order")
     record["t"] = _evened(record["t"], found.source)
@@ -193,15 +190,10 @@ def _meaning(text: str) -> tuple[str, float]:
     return unit, scale * float(number) if is_per_volt else scale / float(number)
 
 
-def counted(table: Table, column: Column, reading: Reading, step: float, word: str) -> Array:
+def counted(table: Table, column: Column, step: float, word: str) -> Array:
     """Even values in the place of a column. Warns where the file has some that go on by another step than is said."""
-    own, name = np.zeros(1), column.name
-    units = {key: one for key, one in (reading.units or {}).items() if key == name}
-    columns = {key: one for key, one in (reading.columns or {}).items() if key == name}
-    with suppress(ValueError), warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        asked = reading._replace(units=units, columns=columns)
-        own = table_of(table.text, table.source, (column,), asked).values[name]
+    name = column.name
+    own = table.again((column,), table.reading._replace(units=None, columns=None)).get(name, np.zeros(1))
     taken, said = float(np.ptp(own)), step * (own.size - 1)
     rounded = np.diff(np.unique(own)).min(initial=np.inf)
     if abs(taken - said) - rounded > 0.01 * said:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from os import PathLike
 from typing import NamedTuple
 
-from mdr.files.measurements import LIKELY_MODULUS, read_table, require_rows
-from mdr.materials.base import poisson_ratio
+from mdr.files.measurements import LIKELY_MODULUS, read_table, stretch_of
 from mdr.tools.arrays import Array
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Units
@@ -139,22 +138,11 @@ def _over_time(
     """Times, and the tensile value of one of two columns, in tension and in shear."""
     table = read_table(path, columns, reading)
     time, tensile, shear = columns
-    found = [one for one in (tensile, shear) if one.name in table.values]
-    if not found:
-        example = f"{time.example}, {tensile.example}, or {shear.name} of shear"
-        raise table.lacks(f"no {tensile.name}", example, tensile.name)
-    if len(found) > 1:
-        raise table.fault(f'{tensile.name} and {shear.name}: leave one out, columns={{"{shear.name}": ""}}')
-    (one,) = found
-    require_rows(table, table.values["t"] >= 0, "t counts from the step and must not be negative")
-    require_rows(table, table.values[one.name] > 0, f"{one.name} must be positive")
-    if one is tensile and nu is not None:
-        raise table.fault(f"nu= has no effect on {one.name}, which is of tension: leave it out")
-    values = table.values[one.name]
-    if one is shear:
-        if nu is None:
-            tension = f'if it is one in tension, columns={{"{tensile.name}": ...}}'
-            raise table.fault(f"{shear.name} is of shear and needs Poisson's ratio: give nu=; {tension}")
-        stretch = 2 * (1 + poisson_ratio("nu", nu))
-        values = values * stretch if shear.unit == "Pa" else values / stretch
-    return table.values["t"], values
+    example = f"{time.example}, {tensile.example}, or {shear.name} of shear"
+    kinds = (tensile,), (shear,)
+    kind = table.one_of(kinds, f"no {tensile.name}", example, tensile.name)
+    t, values = table.values["t"], table.values[kind[0].name]
+    table.require(t >= 0, "t counts from the step and must not be negative")
+    table.require(values > 0, f"{kind[0].name} must be positive")
+    stretch = stretch_of(table, kind, kinds, nu)
+    return t, values * stretch if shear.unit == "Pa" else values / stretch

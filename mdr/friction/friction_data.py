@@ -10,21 +10,18 @@ velocities the other way are negative.
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
-from os import PathLike, fsdecode
+from os import PathLike
 
 import numpy as np
 
 from mdr.case.doubts import GREATEST_MU_0
-from mdr.files.measurements import read_table, require_rows
+from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite, finite_array, positive
-from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
+from mdr.tools.csv_header import Column
+from mdr.tools.csv_table import Columns, Reading, Table, Units
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 from mdr.tools.warned import warn_outside
@@ -36,20 +33,18 @@ VELOCITY = Column(
     "v_0", ("v", "velocity", "speed", "sliding velocity", "sliding speed"), "m/s", lone=True, likely=(0.0, 100.0),
     instead="v_0=, of friction over another column: du_x, du_y, du_z, u_z0, load or frequency",
 )  # fmt: skip
+FORCES = {
+    "F_t": ("Ft", "F_f", "Ff", "F_x", "friction force", "tangential force", "lateral force"),
+    "F_n": ("Fn", "F_N", "F_z", "normal force", "normal load"),
+}
 FRICTION = (
     Column(
-        "cof",
-        ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"),
-        "-",
-        instead="forces, F_t [N] and F_n [N]",
+        "cof", ("mu", "μ", "friction", "coefficient of friction", "friction coefficient"),
+        instead="forces, F_t [N] and F_n [N]", others=(*FORCES,),
     ),
-    Column("error", ERRORS, "-", needed=False),
-)
-FORCES = (
-    Column("F_t", ("Ft", "F_f", "Ff", "F_x", "friction force", "tangential force", "lateral force"), "N"),
-    Column("F_n", ("Fn", "F_N", "F_z", "normal force", "normal load"), "N"),
-    FRICTION[-1],
-)
+    Column("error", ERRORS, needed=False),
+    *(Column(name, names, "N", needed=False, without="cof") for name, names in FORCES.items()),
+)  # fmt: skip
 TURNING = VELOCITY._replace(unit="rad/s", lone=False, instead="", likely=(0.0, np.inf))
 #: what varies in the place of the velocity, by its name in a case
 OVER = tuple(
@@ -170,66 +165,42 @@ def read_friction_data(
     """
     if v_0 is not None and radius is not None:
         raise ValueError("radius is of a column of turning speeds, and v_0= the velocity of all rows: give one")
-    reading = Reading(units, columns, skip, table)
-    if v_0 is None:
-        read, wanted = _first_read(path, (VELOCITY if radius is None else TURNING,), reading, radius is None)
-    else:
-        read, wanted = _first_read(path, OVER, reading, False)
-    found = read.values
-    over = [one.name for one in OVER if one.name in found]
-    if v_0 is not None and len(over) != 1:
-        what = f"{' and '.join(over)}, and one is varied; leave out the others" if over else "nothing that is varied"
-        raise read.lacks(what, "du_x [um], cof", *(over or ["du_x"]))
+    over = OVER if v_0 is not None else (VELOCITY if radius is None else TURNING,)
+    read = read_table(path, (*over, *FRICTION), Reading(units, columns, skip, table))
+    found, varied = read.values, ""
+    if v_0 is not None:
+        kinds = [(one,) for one in OVER]
+        varied = read.one_of(kinds, "nothing that is varied", "du_x [um], cof", "du_x")[0].name
     cof = found["cof"] if "cof" in found else _of_forces(read)
     if "error" not in found and "error" not in (columns or {}):
-        _look_for_errors(read, wanted, reading, cof)
+        _look_for_errors(read, cof)
     if v_0 is not None:
-        velocity, varied = np.full(cof.shape, finite("v_0", v_0)), over[0]
+        velocity = np.full(cof.shape, finite("v_0", v_0))
     else:
         velocity = found["v_0"] * (1 if radius is None else positive("radius", radius, "of the track in m"))
-        varied = ""
     try:
         return FrictionData(velocity, cof, found.get("error"), varied, found.get(varied))
     except ValueError as refusal:
         raise read.fault(str(refusal)) from None
 
 
-def _first_read(
-    path: str | PathLike[str], first: tuple[Column, ...], reading: Reading, may_turn: bool
-) -> tuple[Table, tuple[Column, ...]]:
-    """The file by its coefficients, else by its forces, and the columns; the refusal is that of the first."""
-    refused: ValueError | None = None
-    for kind in (FRICTION, FORCES):
-        try:
-            return read_table(path, (*first, *kind), reading), (*first, *kind)
-        except ValueError as refusal:
-            refused = refused or refusal
-    assert refused is not None
-    if may_turn:
-        with suppress(ValueError), warnings.catch_warnings(action="ignore"):
-            _first_read(path, (TURNING,), reading, False)
-            refused = fault(fsdecode(path), "v_0 is a turning speed: give radius=, of the track in m, or v_0 in m/s")
-    raise refused from None
-
-
 def _of_forces(table: Table) -> Array:
     """F_t/F_n, with the mean load, which is told."""
     F_t, F_n = table.values["F_t"], table.values["F_n"]
-    require_rows(table, F_n > 0, "F_n presses and must be positive")
+    table.require(F_n > 0, "F_n presses and must be positive")
     load = f"the mean load is {F_n.mean():.4g} N, of {F_n.min():.4g} to {F_n.max():.4g} N"
     warn_outside(f"{table.source}: cof = F_t/F_n is taken; {load}")
     return np.asarray(F_t / F_n)
 
 
-def _look_for_errors(table: Table, wanted: Sequence[Column], reading: Reading, cof: Array) -> None:
+def _look_for_errors(table: Table, cof: Array) -> None:
     """Warn of columns that may be the error, where none is named so."""
     maybe = []
     for name in table.header.unread:
-        with suppress(ValueError), warnings.catch_warnings(action="ignore"):
-            again = reading._replace(columns={**(reading.columns or {}), "error": name})
-            error = table_of(table.text, table.source, wanted, again).values["error"]
-            if np.all((error > 0) & (error < cof)):
-                maybe.append(name)
+        again = table.reading._replace(columns={**(table.reading.columns or {}), "error": name})
+        error = table.again(table.header.columns, again).get("error", 0.0)
+        if np.all((error > 0) & (error < cof)):
+            maybe.append(name)
     if maybe:
         say = f'columns={{"error": "{maybe[0]}"}}'
         warn_outside(f"{table.source}: no error is known; if {' or '.join(maybe)} is that of the COF, say {say}")

@@ -37,11 +37,14 @@ MEASURED = {
 }  # fmt: skip
 #: what makes a quantity one of another unit
 USABLE = {
-    ("rad/s", "m/s"): "times the radius of the track (and 2 pi, of turns) it is a velocity",
+    ("rad/s", "m/s"): "times the radius of the track, radius= of friction, it is a velocity",
     ("N m", "N"): "over the arm it is a force", ("N m", "-"): "over arm and load it is a COF",
     ("N", "-"): "over the normal force it is a COF", ("m/s", "m"): "integrated once it is a way",
     ("m/s", "m/s²"): "its rate is an acceleration", ("rad", "-"): "give its tangent",
 }  # fmt: skip
+
+
+EXAMPLES = {"m": "um", "m/s": "mm/s", "rad/s": "Hz", "Pa": "MPa", "1/Pa": "1/MPa", "K": "degC"}  #: units as written
 
 
 class Column(NamedTuple):
@@ -54,6 +57,8 @@ class Column(NamedTuple):
     bare: bool = False  #: whether a header without a unit means that of the library
     lone: bool = False  #: whether the only cell in a unit of it is it
     instead: str = ""  #: what may be given in its place
+    others: tuple[str, ...] = ()  #: columns that, where all are there, stand in its place
+    without: str = ""  #: a column beside which it is not looked for
     empty: float | None = None  #: what an empty cell, or inf, stands for; None refuses them
     likely: tuple[float, float] = (0.0, math.inf)  #: range of the greatest absolute value; outside a unit may be wrong
     doubtful: tuple[str, ...] = ()  #: names that may mean another quantity: asked about, unless `columns=` names them
@@ -64,10 +69,7 @@ class Column(NamedTuple):
     @property
     def example(self) -> str:
         """A header as it is meant."""
-        unit = {"m": "um", "m/s": "mm/s", "rad/s": "Hz", "Pa": "MPa", "1/Pa": "1/MPa", "K": "degC"}.get(
-            self.unit, self.unit
-        )
-        return self.name if unit == "-" else f"{self.name} [{unit}]"
+        return self.name if self.unit == "-" else f"{self.name} [{EXAMPLES.get(self.unit, self.unit)}]"
 
     @property
     def is_bare(self) -> bool:
@@ -140,17 +142,13 @@ class Head(NamedTuple):
         own = (one for one in MEASURED if self.unit and self.is_sure and scale_of(self.unit, one) is not None)
         return next(own, "")
 
-    def readings(self) -> Iterator[tuple[str, str]]:
-        """Names that it may have, each with the unit that it then has."""
-        yield self.name, self.unit
-        if self.name != self.whole and (self.is_suffix or not self.is_sure):
-            yield self.whole, ""
-
     def rank(self, column: Column, names: Sequence[str], needs_unit: bool) -> tuple[int, int, str] | None:
         """How well unit and spelling fit a column of these names, and the unit; None for another name."""
         is_symbol = self.is_suffix and self.whole in (column.name, *names)  # as F_N
+        readings = [] if is_symbol else [(self.name, self.unit)]
+        readings += [(self.whole, "")] if self.is_suffix or not self.is_sure else []
         found = []
-        for name, unit in [(self.whole, "")] if is_symbol else self.readings():
+        for name, unit in readings:
             spelling = _spelling(name, names)
             fits = (FITS if column.measured_in(unit) else MISFITS) if unit else (BARE if needs_unit else FITS)
             if spelling is not None and not (fits == MISFITS and self.is_suffix):
@@ -179,39 +177,37 @@ class Header:
         self.said: list[str] = []  #: guesses
         self.faults: list[str] = []
         self._take_called()
-        self._take_named()
+        self._take_named([one for one in columns if not one.without])
+        self._take_named([one for one in columns if one.without and one.without not in self.at])
         asked = self._ask()
         self._take_lone()
         self.places = [Place(one, self.at[one.name], self._unit(one)) for one in columns if one.name in self.at]
         self.faults += [what for place in self.places if (what := self._fault(place.column))]
-        wanted = [one for one in columns if one.needed or one.name in {*units, *called, *asked}]
+        stood_for = {one.name for one in columns if one.others and self.at.keys() >= {*one.others}}
+        needed = {one.name for one in columns if one.needed} - stood_for
+        wanted = [one for one in columns if one.name in {*needed, *units, *called, *asked}]
         self.absent = [one for one in wanted if one.name not in self.at and called.get(one.name) != ""]
         if unnamed := [one for one in self.absent if one.name not in {*called, *asked}]:
             self.faults.insert(0, self._lacks(unnamed))
 
     def way_out(self, more: Sequence[Column] = ()) -> str:
         """What to say beside the name of the file, so that it is read as it is; of `more` columns too."""
-        if (
-            not more
-            and all(place.column.needed for place in self.places)
-            and not any(map(self._is_doubtful, self._free()))
-        ):
-            more = [*more, *(one for one in self.columns if one.lone and not one.needed)]
-        absent = list(dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)]))
+        are_needed = all(place.column.needed for place in self.places)
+        if not more and are_needed and not any(map(self._is_doubtful, self._free())):
+            more = [one for one in self.columns if one.lone and not one.needed]
+        absent = dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)])
         columns = {name: repr_of(own) for name, own in self.called.items() if name in self.at or own == ""}
         for one in absent:
             at = self._meant(one)
             if at is not None or one.needed or one.lone or not any(other.lone for other in more):
                 columns[one.name] = "..." if at is None else self.word_for(at)
-        units = {name: repr_of(own) for name, own in self.units.items()}
-        units |= {one.name: "..." for one in self.columns if one.name in self.at and self._lacks_unit(one)}
-        said = [(kind, words) for kind, words in (("columns", columns), ("units", units)) if words]
-        if not absent and "..." not in units.values():
+        lacking = {place.column.name: "..." for place in self.places if self._lacks_unit(place.column)}
+        if not absent and not lacking:
             return ""
-        return ", ".join(
-            f"{kind}={{{', '.join(f'{repr_of(name)}: {word}' for name, word in words.items())}}}"
-            for kind, words in said
-        )
+        units = {name: repr_of(own) for name, own in self.units.items()} | lacking
+        told = {"columns": columns, "units": units}
+        pairs = {kind: ", ".join(f"{repr_of(name)}: {own}" for name, own in told[kind].items()) for kind in told}
+        return ", ".join(f"{kind}={{{said}}}" for kind, said in pairs.items() if said)
 
     def word_for(self, at: int) -> str:
         """What names a cell, as it is typed: its name, if it is that of no other, or else its number."""
@@ -222,7 +218,7 @@ class Header:
     @property
     def unread(self) -> list[str]:
         """Names of the cells that are no column and may be pure numbers."""
-        heads = [self.heads[i] for i in self._free()]
+        heads = (self.heads[i] for i in self._free())
         return [one.name for one in heads if one.name and one.unit in ("", "-", "1", "%")]
 
     # --- names ---
@@ -231,13 +227,11 @@ class Header:
         """The columns that `columns=` names or numbers."""
         for column in self.columns:
             own = self.called.get(column.name)
-            if own is None:
-                continue
-            if own == "":
-                self.faults += [f'columns: {column.name} is needed, got ""'] if column.needed else []
+            if not own and own != 0:
+                self.faults += [f'columns: {column.name} is needed, got ""'] if own == "" and column.needed else []
                 continue
             found = [] if isinstance(own, int) else self._cells_called(own)
-            if isinstance(own, int) or (not found and own.isascii() and own.isdigit()):
+            if not found and str(own).isascii() and str(own).isdigit():
                 found = [int(own) - 1] if 0 < int(own) <= len(self.heads) else []
             taken = [name for name, index in self.at.items() if index in found]
             if not found:
@@ -256,17 +250,15 @@ class Header:
 
     def _cells_called(self, own: str) -> list[int]:
         """The cells that are best spelt so."""
-        ranks = [
-            (rank + (SPELLINGS if head.is_suffix and one != head.whole else 0), i)
-            for i, head in enumerate(self.heads)
-            for one in (head.name, head.whole)
-            if (rank := _spelling(one, (own,))) is not None
-        ]
-        return sorted({i for rank, i in ranks if rank == min(ranks)[0]})
+        ranks: dict[int, set[int]] = {}
+        for (i, head), by_whole in product(enumerate(self.heads), (False, True)):
+            if (rank := _spelling(head.whole if by_whole else head.name, (own,))) is not None:
+                ranks.setdefault(rank + SPELLINGS * (head.is_suffix and not by_whole), set()).add(i)
+        return sorted(ranks[min(ranks)]) if ranks else []
 
-    def _take_named(self) -> None:
-        """The columns whose names are in the header, the best first."""
-        open_ones = [one for one in self.columns if one.name not in {*self.at, *self.called}]
+    def _take_named(self, columns: Sequence[Column]) -> None:
+        """Those of some columns whose names are in the header, the best first."""
+        open_ones = [one for one in columns if one.name not in {*self.at, *self.called}]
         free = self._free()
         ranks = {one.name: {i: rank for i in free if (rank := self._rank(one, i))} for one in open_ones}
         for fit, spelling in product((FITS, BARE, MISFITS), range(SPELLINGS)):
@@ -371,11 +363,11 @@ class Header:
 
     def others(self, absent: Sequence[Column]) -> str:
         """What cells measure that are none of the columns, and what would make them so."""
-        said = []
+        said, looked_for = [], [one for one in self.columns if one.unit != "-" and not one.without]
         for head in (self.heads[i] for i in self._free()):
             if head.is_logarithm:
                 said.append(f"{short(head.whole)} is a logarithm, give its power of the base in the file")
-            elif head.quantity and not any(one.measured_in(head.unit) for one in self.columns if one.unit != "-"):
+            elif head.quantity and not any(one.measured_in(head.unit) for one in looked_for):
                 said.append(f"{short(head.whole)} is {MEASURED[head.quantity]}{_usable(head.quantity, absent)}")
         return "".join(f"; {one}" for one in said[:3])
 

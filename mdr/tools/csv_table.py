@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import csv
 import math
+import warnings
 from bisect import bisect
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -24,6 +25,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
@@ -109,6 +111,7 @@ class Table(NamedTuple):
     lines: tuple[int, ...]  #: where each row stands in the file
     header: Header
     text: str  #: of the file
+    reading: Reading
     first_lines: str  #: header and first rows as they were read
 
     def fault(self, what: str) -> ValueError:
@@ -120,6 +123,30 @@ class Table(NamedTuple):
         more = [one for one in self.header.columns if one.name in wanted]
         named = f"the header names {what}; write {example}{self.header.others(more)}"
         return _refusal(self.source, [named], self.first_lines, self.header, more)
+
+    def one_of(self, kinds: Sequence[Sequence[Column]], lack: str, example: str, *wanted: str) -> Sequence[Column]:
+        """The only one of some kinds of columns that the file has. Refused where it has several, or `lack` says."""
+        names = [[one.name for one in kind if one.name in self.values] for kind in kinds]
+        if not any(names):
+            raise self.lacks(lack, example, *wanted)
+        _, *others = there = [*filter(None, names)]
+        if others:
+            without = ", ".join(f'{repr_of(name)}: ""' for kind in others for name in kind)
+            raise self.fault(f"{' and '.join(kind[0] for kind in there)}: leave one out, columns={{{without}}}")
+        return kinds[names.index(there[0])]
+
+    def again(self, columns: Sequence[Column], reading: Reading) -> dict[str, Array]:
+        """The values where it is read so, in silence; none where it is refused."""
+        with suppress(ValueError), warnings.catch_warnings(action="ignore"):
+            return table_of(self.text, self.source, columns, reading).values
+        return {}
+
+    def require(self, good: NDArray[np.bool_], rule: str) -> None:
+        """Refuse the first row that is not good."""
+        if not np.all(good):
+            i = int(np.argmin(good))
+            row = ", ".join(f"{name} = {values[i]:.6g}" for name, values in self.values.items())
+            raise self.fault(f"line {self.lines[i]}: {rule}, got {row} in SI")
 
 
 class Found(NamedTuple):
@@ -176,7 +203,7 @@ def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading
     if guesses := [*filter(None, [said]), *header.said, *filter(None, [left])]:
         warn_outside(one_line(f"{source}: {'; '.join(guesses)}"))
     scaled = {place.column.name: _scaled(values[place.column.name], place) for place in header.places}
-    return Table(source, scaled, tuple(row.number for row in block.rows), header, text, first_lines)
+    return Table(source, scaled, tuple(row.number for row in block.rows), header, text, reading, first_lines)
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:

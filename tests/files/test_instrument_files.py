@@ -387,7 +387,7 @@ REFUSED = [
     (profile, f"r [um], f\n{SCAN}", {"columns": {"f": "Z"}}, "the header names no Z; columns= must name one of these"),
     (moduli, "f [Hz], E' [mPa], E'' [mPa]\n1, 3, 0.3\n", {}, "'mPa' of storage is none of Pa, kPa, MPa, GPa"),
     (moduli, "f [Hz], E' [MPa]\n1, 3\n", {}, "neither loss modulus, tan delta nor phase"),
-    (moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", {}, "needs Poisson's ratio, as E = 2 (1 + nu) G"),
+    (moduli, "f [Hz], G' [MPa], G'' [MPa]\n1, 3, 0.3\n", {}, "G' is of shear and needs Poisson's ratio: give nu="),
     (relaxation, "t [s], Er [MPa]\n1, 1\n", {}, 'columns={"E": ...}'),
     (relaxation, "t [s], E [MPa], G [MPa]\n1, 1, 1\n", {}, 'leave one out, columns={"G": ""}'),
     (creep, "t [s], J [1/MPa]\n1, 1\n", {}, "of shear and needs Poisson's ratio: give nu=; if it is one in"),

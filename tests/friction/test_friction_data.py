@@ -50,7 +50,7 @@ def test_friction_over_another_number_of_the_case(tmp_path, head, over, scale):
 
 def test_a_turning_speed_needs_the_radius_of_the_track(tmp_path):
     (tmp_path / "data.csv").write_text("Speed [rpm],Friction coefficient\n1,0.32\n10,0.43\n")
-    with pytest.raises(ValueError, match=r"v_0 is a turning speed: give radius=, of the track in m"):
+    with pytest.raises(ValueError, match="a speed of rotation, times the radius of the track, radius= of"):
         mdr.read_friction_data(tmp_path / "data.csv")
     data = mdr.read_friction_data(tmp_path / "data.csv", radius=12e-3)
     assert_allclose(data.v_0, 12e-3 * 2 * np.pi / 60 * np.array([1, 10]))
