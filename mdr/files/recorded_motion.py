@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from os import PathLike
 from typing import Any
 
@@ -27,35 +28,27 @@ WAYS = ("displacement", "disp", "position", "way", "u")  #: along the slide, or 
 OF_SLIDE = ("friction", "tangential", "lateral", "COF", "reciprocat", "slid")  #: words of a tribometer
 
 
-def _along(axis: str, letter: str, unit: str, words: tuple[str, ...], **more: Any) -> Column:
-    """A component; its letter alone is a name too, which a unit tells from a position."""
+def _along(letter: str, unit: str, words: tuple[str, ...], axis: str, *more: str, **rules: Any) -> Column:
+    """A component; the letter of its axis alone is a name too, which a unit tells from a position."""
     names = [f"{word} {axis}" for word in words] + [f"{axis} {word}" for word in (*words, f"axis {words[0]}")]
-    return Column(f"{letter}_{axis}", (axis, f"{axis} axis", *names), unit, needed=False, **more)
+    return Column(f"{letter}_{axis}", (axis, f"{axis} axis", *names, *more), unit, needed=False, **rules)
 
 
-def _acceleration(axis: str, *names: str) -> Column:
-    words = ("acceleration", "linear acceleration", "accelerometer", "accel", "acc")
-    found = _along(axis, "a", "m/s²", words, lone=axis == "z", likely=FASTEST)
-    return found._replace(names=(*found.names, *names))
-
-
-def _velocity(axis: str, *doubtful: str) -> Column:
-    beside = OF_SLIDE if axis == "x" else ()
-    return _along(axis, "v", "m/s", ("velocity", "vibration velocity"), likely=FAST, doubtful=doubtful, beside=beside)
-
-
+_ACCELERATED = ("acceleration", "linear acceleration", "accelerometer", "accel", "acc")
+_a = partial(_along, "a", "m/s²", _ACCELERATED, likely=FASTEST)
+_v = partial(_along, "v", "m/s", ("velocity", "vibration velocity"), likely=FAST)
 MOTION = (
     TIME,
     Column("u_x", ("x",), "m", needed=False, doubtful=(*WAYS, "stroke", "travel"), beside=OF_SLIDE),
     Column("u_y", ("y",), "m", needed=False),
     Column("u_z", ("depth", "indentation"), "m", needed=False, likely=(0.0, 0.01), doubtful=(*WAYS, *HEIGHTS)),
     Column("F_z", ("F_N", "normal force", "load"), "N", needed=False),
-    _acceleration("x"),
-    _acceleration("y"),
-    _acceleration("z", "a", "acceleration", "accel", "acc"),
-    _velocity("x", "v", "velocity", "speed", "sliding velocity"),
-    _velocity("y"),
-    _velocity("z", "v", "velocity", "speed"),
+    _a("x"),
+    _a("y"),
+    _a("z", "a", "acceleration", "accel", "acc", lone=True),
+    _v("x", doubtful=("v", "velocity", "speed", "sliding velocity"), beside=OF_SLIDE),
+    _v("y"),
+    _v("z", doubtful=("v", "velocity", "speed")),
 )
 
 
@@ -146,7 +139,7 @@ def read_record(
 def _nothing(table: Table) -> ValueError:
     """The error of a file with no motion by its name; what its units may be is told."""
     said, meant, volts, header = "", [], "", table.header
-    for i in (i for i in range(len(header.heads)) if i not in header.at.values()):
+    for i in header.free():
         head = header.heads[i]
         if scale_of(head.unit, "V") is not None:
             sensor = f'columns={{"a_z": {header.word_for(i)}}}, sensitivity="100 mV/g", or what it is'

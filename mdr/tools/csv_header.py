@@ -41,6 +41,7 @@ USABLE = {
     ("N m", "N"): "over the arm it is a force", ("N m", "-"): "over arm and load it is a COF",
     ("N", "-"): "over the normal force it is a COF", ("m/s", "m"): "integrated once it is a way",
     ("m/s", "m/s²"): "its rate is an acceleration", ("rad", "-"): "give its tangent",
+    ("V", ""): "which needs the sensitivity of its sensor, sensitivity= of a record",
 }  # fmt: skip
 
 
@@ -193,7 +194,7 @@ class Header:
     def way_out(self, more: Sequence[Column] = ()) -> str:
         """What to say beside the name of the file, so that it is read as it is; of `more` columns too."""
         are_needed = all(place.column.needed for place in self.places)
-        if not more and are_needed and not any(map(self._is_doubtful, self._free())):
+        if not more and are_needed and not any(map(self._is_doubtful, self.free())):
             more = [one for one in self.columns if one.lone and not one.needed]
         absent = dict.fromkeys([*self.absent, *(one for one in more if one.name not in self.at)])
         columns = {name: repr_of(own) for name, own in self.called.items() if name in self.at or own == ""}
@@ -218,7 +219,7 @@ class Header:
     @property
     def unread(self) -> list[str]:
         """Names of the cells that are no column and may be pure numbers."""
-        heads = (self.heads[i] for i in self._free())
+        heads = (self.heads[i] for i in self.free())
         return [one.name for one in heads if one.name and one.unit in ("", "-", "1", "%")]
 
     # --- names ---
@@ -259,7 +260,7 @@ class Header:
     def _take_named(self, columns: Sequence[Column]) -> None:
         """Those of some columns whose names are in the header, the best first."""
         open_ones = [one for one in columns if one.name not in {*self.at, *self.called}]
-        free = self._free()
+        free = self.free()
         ranks = {one.name: {i: rank for i in free if (rank := self._rank(one, i))} for one in open_ones}
         for fit, spelling in product((FITS, BARE, MISFITS), range(SPELLINGS)):
             for column in (one for one in open_ones if one.name not in self.at):
@@ -272,16 +273,15 @@ class Header:
         asked: dict[int, list[Column]] = {}
         for column in self.columns:
             if column.name not in {*self.at, *self.called}:
-                for i in self._free():
+                for i in self.free():
                     rank = self.heads[i].rank(column, column.doubtful, not column.is_bare)
                     if rank is not None and rank[0] != MISFITS:
                         asked.setdefault(i, []).append(column)
         for i, columns in asked.items():
-            words = {one.name: self._word_beside(one, i) for one in columns}
-            if len(sure := [one for one in columns if words[one.name]]) == 1 and sure[0].name not in self.at:
-                (one,) = sure
-                self._take(one, [i], self.heads[i].unit)
-                self.said.append(f"{short(self.heads[i].whole)} is read as {one.name}, for {words[one.name]}")
+            sure = [(one, word) for one in columns if (word := self._word_beside(one, i))]
+            if len(sure) == 1 and sure[0][0].name not in self.at:
+                self._take(sure[0][0], [i], self.heads[i].unit)
+                self.said.append(f"{short(self.heads[i].whole)} is read as {sure[0][0].name}, for {sure[0][1]}")
         asked = {i: columns for i, columns in asked.items() if i not in self.at.values()}
         for i, columns in asked.items():
             ways = [f"if it is {one.name}, columns={{{repr_of(one.name)}: {self.word_for(i)}}}" for one in columns]
@@ -302,12 +302,11 @@ class Header:
         """The columns that are missing, where one cell alone is in a unit of them."""
         is_bare = not any(one.name in self.at for one in self.columns if not one.needed)
         for column in self.columns:
-            is_open = column.lone and column.name not in self.at and column.name not in self.called
-            if is_open and (column.needed or is_bare):
+            if column.lone and column.name not in {*self.at, *self.called} and (column.needed or is_bare):
                 of_unit = [i for i, head in enumerate(self.heads) if self._measures(head, column)]
-                if len(of_unit) == 1 and of_unit[0] in self._free() and not self._is_doubtful(of_unit[0]):
-                    self._take(column, of_unit, self.heads[of_unit[0]].unit)
-                    self.said.append(f"{short(self.heads[of_unit[0]].whole)} is read as {column.name}")
+                if len(of_unit) == 1 and (at := of_unit[0]) in self.free() and not self._is_doubtful(at):
+                    self._take(column, of_unit, self.heads[at].unit)
+                    self.said.append(f"{short(self.heads[at].whole)} is read as {column.name}")
 
     def _take(self, column: Column, found: list[int], unit: str) -> None:
         if len(found) > 1:
@@ -315,7 +314,8 @@ class Header:
             self.faults.append(f"the header names {column.name} twice; {which}")
         self.at[column.name], self.written[column.name] = found[0], unit
 
-    def _free(self) -> list[int]:
+    def free(self) -> list[int]:
+        """The cells that are no column."""
         taken = set(self.at.values())
         return [i for i in range(len(self.heads)) if i not in taken]
 
@@ -343,7 +343,7 @@ class Header:
     def _meant(self, column: Column) -> int | None:
         """The free cell that can only be this column: by its unit, and by the letter of an axis."""
         able = [one for one in self.columns if one.name not in self.at and self.called.get(one.name) != ""]
-        fitting = [i for i in self._free() if self._measures(self.heads[i], column) and not self._is_doubtful(i)]
+        fitting = [i for i in self.free() if self._measures(self.heads[i], column) and not self._is_doubtful(i)]
         fitting = [i for i in fitting if not self.heads[i].axes - {column.name[-1]}]
         fitting = [i for i in fitting if column.name[-1] in self.heads[i].axes] or fitting
         if len(fitting) != 1:
@@ -364,7 +364,7 @@ class Header:
     def others(self, absent: Sequence[Column]) -> str:
         """What cells measure that are none of the columns, and what would make them so."""
         said, looked_for = [], [one for one in self.columns if one.unit != "-" and not one.without]
-        for head in (self.heads[i] for i in self._free()):
+        for head in (self.heads[i] for i in self.free()):
             if head.is_logarithm:
                 said.append(f"{short(head.whole)} is a logarithm, give its power of the base in the file")
             elif head.quantity and not any(one.measured_in(head.unit) for one in looked_for):
@@ -384,6 +384,7 @@ class Header:
     def _fault(self, column: Column) -> str:
         """What is wrong with the unit of a column; empty where nothing is."""
         name, unit, written, given = column.name, column.unit, self._unit(column), self.units.get(column.name)
+        leave_out = "" if column.needed else f'columns={{{repr_of(name)}: ""}} leaves it out'
         if given is not None and scale_of(given, unit) is None:
             return f"units: {name} = {short(repr(given))} is none of {listed(unit)}"
         if written and not column.measured_in(written):
@@ -391,32 +392,25 @@ class Header:
             is_other = f": it is {MEASURED[what]}{_usable(what, [column])}" if what else ""
             if unit == "-":
                 return f"{name} is a pure number, got the unit {short(written)!r}{is_other}"
-            way_out = f'columns={{{repr_of(name)}: ""}} leaves it out' if not column.needed else ""
-            if not is_unit(written):
-                way_out = f"{way_out}{way_out and ', '}units={{{repr_of(name)}: ...}} says which it is"
-            ways = f"; {way_out}" if way_out else ""
-            return f"the unit {short(written)!r} of {name} is none of {listed(unit)}{is_other}{ways}"
+            say = "" if is_unit(written) else f"units={{{repr_of(name)}: ...}} says which it is"
+            ways = ", ".join(filter(None, (leave_out, say)))
+            return f"the unit {short(written)!r} of {name} is none of {listed(unit)}{is_other}{ways and '; '}{ways}"
         if written and given is not None and scale_of(written, unit) != scale_of(given, unit):
             return f"the header gives {name} in {written}, units= in {given}; give one"
-        if self._lacks_unit(column):
-            way_out = "" if column.needed else f'; columns={{{repr_of(name)}: ""}} leaves it out'
-            return f"{name} needs a unit in its header, one of {listed(unit)}{way_out}"
-        return ""
+        needs = f"{name} needs a unit in its header, one of {listed(unit)}{leave_out and '; '}{leave_out}"
+        return needs if self._lacks_unit(column) else ""
 
 
 def _usable(quantity: str, wanted: Sequence[Column]) -> str:
     """What makes a quantity one of the columns that are wanted."""
-    ways = (f", {USABLE[quantity, one.unit]}" for one in wanted if USABLE.get((quantity, one.unit)))
-    return next(
-        ways, ", which needs the sensitivity of its sensor, sensitivity= of a record" if quantity == "V" else ""
-    )
+    ways = (USABLE.get((quantity, unit)) for unit in (*(one.unit for one in wanted), ""))
+    return next((f", {way}" for way in ways if way), "")
 
 
 def repr_of(said: str | int) -> str:
     """A word or a number as it is typed in Python."""
-    if not isinstance(said, str):
-        return str(said)
-    return repr(said) if '"' in said or "\\" in said or not said.isprintable() else f'"{said}"'
+    is_plain = isinstance(said, str) and said.isprintable() and not {'"', "\\"} & {*said}
+    return f'"{said}"' if is_plain else repr(said)
 
 
 def fault(where: str, what: str) -> ValueError:

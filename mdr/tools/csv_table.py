@@ -17,8 +17,10 @@ import csv
 import math
 import warnings
 from bisect import bisect
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
 from io import StringIO
 from itertools import chain
 from pathlib import Path
@@ -103,26 +105,83 @@ class Reading(NamedTuple):
     table: int | str | None = None  #: which table of the file, from 1, or words of a line above it; None: the only one
 
 
-class Table(NamedTuple):
-    """The columns that were found."""
+@dataclass(eq=False)
+class Table:
+    """A table of a text with a header that it may have; its values once they are read."""
 
     source: str  #: name of the file
-    values: dict[str, Array]  #: each column (n,) in the unit of the library
-    lines: tuple[int, ...]  #: where each row stands in the file
-    header: Header
     text: str  #: of the file
+    columns: Sequence[Column]  #: that are looked for
     reading: Reading
-    first_lines: str  #: header and first rows as they were read
+    block: Block
+    names: Names
+    above: str  #: words above
+    values: dict[str, Array] = field(default_factory=dict)  #: each column (n,) in the unit of the library
+
+    def __post_init__(self) -> None:
+        block, names, reading = self.block, self.names, self.reading
+        row = block.cells(block.rows[0])
+        heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
+        self.header = Header(heads, names.units, self.columns, reading.units or {}, reading.columns or {}, self.above)
+        top = math.inf if names.line is None else names.line.number
+        for line in block.above[-FAR:]:
+            if line.number > top and not line.is_comment and bare(block.heads(line)) != names.units:
+                where = f"line {line.number}, {short(line.text)}, between header and rows is"
+                if any(map(is_like_number, block.cells(line))):
+                    self.header.faults.append(f"{where} no row")
+                elif any(map(str.isalnum, line.text)):
+                    self.header.said.append(f"{where} left out")
+        cells = [(one.column, row[one.at].strip() if one.at < len(row) else "") for one in self.header.places]
+        numbers = [is_like_number(cell) or (one.empty is not None and not cell) for one, cell in cells]
+        #: whether all that is needed is there, with numbers below
+        self.is_whole = bool(numbers) and all(numbers) and not self.header.faults
+
+    @property
+    def fits(self) -> tuple[int, ...]:
+        """How well the header fits what is looked for."""
+        columns, faults = len(self.header.at), len(self.header.faults)
+        return self.is_whole, columns > 0 == faults, columns, -faults
+
+    @property
+    def rank(self) -> tuple[float, ...]:
+        """The same, whether it is a table below its header, and whether its cells are numbers."""
+        whole, sound, *counts = self.fits
+        aligned = len(self.names.cells) == self.block.width
+        return whole, sound, self.block.is_table, aligned, *counts, *share_of_numbers(self.block)
+
+    @property
+    def lines(self) -> list[int]:
+        """Where each row stands in the file."""
+        return [row.number for row in self.block.rows]
+
+    @property
+    def told(self) -> str:
+        """Where it stands, below which words."""
+        title = self.block.title
+        below = f', below "{short(title)}"' if title else ""
+        return f"lines {self.block.rows[0].number} to {self.block.rows[-1].number}{below}"
 
     def fault(self, what: str) -> ValueError:
         """The error of this file."""
         return fault(self.source, what)
 
+    def refusal(self, faults: Sequence[str], more: Sequence[Column] = ()) -> ValueError:
+        """The error of its header: faults, the first lines as they were read, and what to give with the file."""
+        block, header = self.block, self.names.line
+        above = [line for line in block.above if header is not None and line.number >= header.number][:3]
+        read = [(line, self.names.cells if line is header else block.heads(line)) for line in above]
+        if header is not None and header not in above:
+            read.insert(0, (header, self.names.cells))
+        read += [(line, block.cells(line)) for line in block.rows[:2]]
+        lines = [f"  {one_line(f'line {line.number}: ' + ' | '.join(row), 120)}" for line, row in read]
+        way_out = self.header.way_out(more)
+        last = [f"  to read it as it is: {one_line(way_out)}"] if way_out else []
+        return ValueError("\n".join([*_first(faults, self.source), *lines, *last]))
+
     def lacks(self, what: str, example: str, *wanted: str) -> ValueError:
         """The error of a header that names none of several columns; a file that has them all would be read so."""
-        more = [one for one in self.header.columns if one.name in wanted]
-        named = f"the header names {what}; write {example}{self.header.others(more)}"
-        return _refusal(self.source, [named], self.first_lines, self.header, more)
+        more = [one for one in self.columns if one.name in wanted]
+        return self.refusal([f"the header names {what}; write {example}{self.header.others(more)}"], more)
 
     def one_of(self, kinds: Sequence[Sequence[Column]], lack: str, example: str, *wanted: str) -> Sequence[Column]:
         """The only one of some kinds of columns that the file has. Refused where it has several, or `lack` says."""
@@ -149,35 +208,6 @@ class Table(NamedTuple):
             raise self.fault(f"line {self.lines[i]}: {rule}, got {row} in SI")
 
 
-class Found(NamedTuple):
-    """A table with the header that fits it best."""
-
-    block: Block
-    names: Names
-    header: Header
-    is_whole: bool  #: whether all that is needed is there, with numbers below
-
-    @property
-    def fits(self) -> tuple[int, ...]:
-        """How well the header fits what is looked for."""
-        columns, faults = len(self.header.at), len(self.header.faults)
-        return self.is_whole, columns > 0 == faults, columns, -faults
-
-    @property
-    def rank(self) -> tuple[float, ...]:
-        """The same, whether it is a table below its header, and whether its cells are numbers."""
-        whole, sound, *counts = self.fits
-        aligned = len(self.names.cells) == self.block.width
-        return whole, sound, self.block.is_table, aligned, *counts, *share_of_numbers(self.block)
-
-    @property
-    def told(self) -> str:
-        """Where it stands, below which words."""
-        title = self.block.title
-        below = f', below "{short(title)}"' if title else ""
-        return f"lines {self.block.rows[0].number} to {self.block.rows[-1].number}{below}"
-
-
 def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading, said: str = "") -> Table:
     """The columns in a text, and one warning of what was guessed, with what is `said` already.
 
@@ -186,24 +216,25 @@ def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading
     names = [column.name for column in columns]
     _require_known("units", reading.units, names, (str,))
     _require_known("columns", reading.columns, names, (str, int))
-    skip = None if reading.skip is None else count("skip", reading.skip, 0)
-    lines = lines_of(text, skip)
-    found = _found_in(lines, told_separator(text), source, columns, reading)
-    chosen = _chosen(found, source, reading.table)
-    block, header = chosen.block, chosen.header
-    first_lines = _as_read(chosen)
+    lines = lines_of(text, None if reading.skip is None else count("skip", reading.skip, 0))
+    found = _found_in(lines, partial(Table, source, text, columns, reading), told_separator(text), source)
+    if not found:
+        example = ", ".join(one.example for one in columns if one.needed)
+        raise fault(source, f"holds no table; a header such as {example}, and a row a measurement")
+    table = _chosen(found, source, reading.table)
+    block, header = table.block, table.header
     if header.faults:
-        raise _refusal(source, header.faults, first_lines, header)
-    if (more := len(chosen.names.cells) - block.width) > 0 and block.separator == " ":
+        raise table.refusal(header.faults)
+    if (more := len(table.names.cells) - block.width) > 0 and block.separator == " ":
         header.said.append(f"rows have {block.width} cells, the header {more} more, which are taken for the last")
-    values, faults = _values_of(chosen, source)
+    values, faults = _values_of(table)
     if faults:
         raise ValueError("\n".join(_first(faults, source)))
-    left = _left_out(found, chosen, lines) if reading.table is None else ""
-    if guesses := [*filter(None, [said]), *header.said, *filter(None, [left])]:
+    left = _left_out(found, table, lines) if reading.table is None else ""
+    if guesses := [*filter(None, [said, *header.said, left])]:
         warn_outside(one_line(f"{source}: {'; '.join(guesses)}"))
-    scaled = {place.column.name: _scaled(values[place.column.name], place) for place in header.places}
-    return Table(source, scaled, tuple(row.number for row in block.rows), header, text, reading, first_lines)
+    table.values = {one.column.name: _scaled(values[one.column.name], one) for one in header.places}
+    return table
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:
@@ -219,21 +250,19 @@ def csv_text(columns: Mapping[str, Any]) -> str:
 MOST_ABOVE = 10_000  #: letters above a table in which words may tell of it
 
 
-def _found_in(lines: list[Line], told: str, source: str, columns: Sequence[Column], reading: Reading) -> list[Found]:
-    """The tables, cut by the separator with which one fits best."""
+def _found_in(lines: list[Line], of: Callable[..., Table], told: str, source: str) -> list[Table]:
+    """The tables, cut by the separator with which one fits best; none where there is no row."""
     best: tuple[Any, str] | None = None
     for part in (lines[:SEARCHED], lines):
         for separator in told or SEPARATORS:
-            ranks = [one.rank for one in _with_headers(blocks(part, separator), columns, reading)]
+            ranks = [one.rank for one in _with_headers(blocks(part, separator), of)]
             if ranks and (best is None or max(ranks) > best[0]):
                 best = max(ranks), separator
         if best is not None and any(best[0][:3]):  # all is there, or a table
             break
-    if best is None:
-        example = ", ".join(one.example for one in columns if one.needed)
-        raise fault(source, f"holds no table; a header such as {example}, and a row a measurement")
-    found = _with_headers(_cut(lines, best[1], source), columns, reading)
-    return [one for one in found if one.is_whole or one.block.is_table] or [max(found, key=lambda one: one.rank)]
+    found = [] if best is None else _with_headers(_cut(lines, best[1], source), of)
+    tables = [one for one in found if one.is_whole or one.block.is_table]
+    return tables or sorted(found, key=lambda one: one.rank, reverse=True)[:1]
 
 
 def _cut(lines: list[Line], separator: str, source: str) -> list[Block]:
@@ -248,50 +277,23 @@ def _cut(lines: list[Line], separator: str, source: str) -> list[Block]:
     return blocks(progress(lines, f"reading {source}", "lines"), separator)
 
 
-def _with_headers(tables: Sequence[Block], columns: Sequence[Column], reading: Reading) -> list[Found]:
+def _with_headers(tables: Sequence[Block], of: Callable[..., Table]) -> list[Table]:
     """The tables, each with the best of the headers that it may have."""
-    found: dict[int, Found] = {}
+    found: dict[int, Table] = {}
     above = ""
     for block in tables:
         above = " ".join([above, *(line.text for line in block.above)])[-MOST_ABOVE:]
-        row, of = block.cells(block.rows[0]), found.get(id(block.named))
-        ways = [of.names] if of else block.names()
-        tried = [_with_header(block, names, row, columns, reading, above) for names in ways]
+        named = found.get(id(block.named))
+        tried = [of(block, names, above) for names in ([named.names] if named else block.names())]
         found[id(block)] = max(tried, key=lambda one: one.fits)
     return list(found.values())
 
 
-def _with_header(
-    block: Block, names: Names, row: Sequence[str], columns: Sequence[Column], reading: Reading, above: str
-) -> Found:
-    """A table with one header."""
-    heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
-    header = Header(heads, names.units, columns, reading.units or {}, reading.columns or {}, above)
-    top = math.inf if names.line is None else names.line.number
-    for line in block.above[-FAR:]:
-        if line.number > top and not line.is_comment and bare(block.heads(line)) != names.units:
-            if any(map(is_like_number, block.cells(line))):
-                header.faults.append(f"line {line.number}, {short(line.text)}, between header and rows is no row")
-            elif any(map(str.isalnum, line.text)):
-                header.said.append(f"line {line.number}, {short(line.text)}, between header and rows is left out")
-    return Found(block, names, header, not header.faults and _holds(row, header))
-
-
-def _holds(row: Sequence[str], header: Header) -> bool:
-    """Whether the first row has a number for each column."""
-    cells = [(place.column, row[place.at] if place.at < len(row) else "") for place in header.places]
-    return bool(cells) and all(
-        is_like_number(cell) or (column.empty is not None and not cell.strip()) for column, cell in cells
-    )
-
-
-def _chosen(found: Sequence[Found], source: str, table: int | str | None) -> Found:
+def _chosen(found: Sequence[Table], source: str, table: int | str | None) -> Table:
     """The table that is named, or the only one that has what is needed."""
     whole = [one for one in found if one.is_whole]
     if table is None:
-        if len(whole) < 2:
-            return max(found, key=lambda one: one.rank)
-        taken = whole
+        taken = whole if len(whole) > 1 else [max(found, key=lambda one: one.rank)]
     elif isinstance(table, str):
         taken = [one for one in found if any(table.casefold() in line.text.casefold() for line in one.block.above)]
     else:
@@ -308,7 +310,7 @@ def _chosen(found: Sequence[Found], source: str, table: int | str | None) -> Fou
     )
 
 
-def _left_out(found: Sequence[Found], chosen: Found, lines: Sequence[Line]) -> str:
+def _left_out(found: Sequence[Table], chosen: Table, lines: Sequence[Line]) -> str:
     """Lines that are not read, though they have numbers or stand below the table."""
     place = found.index(chosen)
     said = [f"{one.told}, are another table and left out" for one in found[:place] if one.block.is_table]
@@ -321,32 +323,10 @@ def _left_out(found: Sequence[Found], chosen: Found, lines: Sequence[Line]) -> s
     return "; ".join(said)
 
 
-def _as_read(found: Found) -> str:
-    """The header, what stands below it, the first row and one more, cells between bars."""
-    block, header = found.block, found.names.line
-    above = [line for line in block.above if header is not None and line.number >= header.number][:3]
-    cells = [(line, found.names.cells if line is header else block.heads(line)) for line in above]
-    if header is not None and header not in above:
-        cells.insert(0, (header, found.names.cells))
-    cells += [(line, block.cells(line)) for line in block.rows[:2]]
-    return "\n".join(f"  {one_line(f'line {line.number}: ' + ' | '.join(row), 120)}" for line, row in cells)
-
-
-def _refusal(
-    source: str, faults: Sequence[str], first_lines: str, header: Header, more: Sequence[Column] = ()
-) -> ValueError:
-    """The error of a header: its faults, the first lines as they were read, and what to give with the file."""
-    way_out = header.way_out(more)
-    last = [f"  to read it as it is: {one_line(way_out)}"] if way_out else []
-    return ValueError(
-        "\n".join([*_first([one_line(f"{source}: {one}") for one in faults], source), first_lines, *last])
-    )
-
-
 def _first(faults: Sequence[str], source: str) -> list[str]:
-    """The first faults, and how many more there are."""
-    more = [f"{source}: and {len(faults) - MOST_TOLD} more"] if len(faults) > MOST_TOLD else []
-    return [*faults[:MOST_TOLD], *more]
+    """The first faults, a line each, and how many more there are."""
+    more = [f"and {len(faults) - MOST_TOLD} more"] if len(faults) > MOST_TOLD else []
+    return [one_line(f"{source}: {one}") for one in [*faults[:MOST_TOLD], *more]]
 
 
 # --- values ---
@@ -381,11 +361,11 @@ def _require_known(name: str, given: Mapping[str, Any] | None, known: Sequence[s
         raise ValueError(f"{name}: {short(str(strange[0]))} is no column; there are {', '.join(known)}")
 
 
-def _values_of(found: Found, source: str) -> tuple[dict[str, Sequence[float] | Array], list[str]]:
+def _values_of(table: Table) -> tuple[dict[str, Sequence[float] | Array], list[str]]:
     """The numbers of each column, and what is wrong with cells and rows."""
-    block, places = found.block, found.header.places
-    heads = len(filled(found.names.cells))
-    numbered = all(str(found.header.called.get(one.column.name)).isdigit() for one in places)
+    block, header = table.block, table.header
+    heads, places = len(filled(table.names.cells)), header.places
+    numbered = all(str(header.called.get(one.column.name)).isdigit() for one in places)
     exact = block.separator == " "
     width = block.width if numbered or not heads or (exact and heads > block.width) else heads
     if block.numbers is not None and width >= block.width:
@@ -394,37 +374,31 @@ def _values_of(found: Found, source: str) -> tuple[dict[str, Sequence[float] | A
     rows = [block.cells(line) for line in block.rows]
     comma = "; if a comma is the decimal mark, separate them by ;" if block.separator == "," else ""
     faults = [
-        f"{source}: line {line.number}: has {len(row)} cells, {whose} {width}{comma if len(row) > width else ''}"
+        f"line {line.number}: has {len(row)} cells, {whose} {width}{comma if len(row) > width else ''}"
         for line, row in zip(block.rows, rows, strict=True)
         if len(row) < least or (len(row) != width and (exact or any(row[width:])))
     ]
-    columns = [[row[one.at] if one.at < len(row) else "" for row in rows] for one in places]
-    mark, wrong = decimal_mark(chain(*columns))
-    faults += [f"{source}: {wrong}"] if wrong else []
-    pairs = zip(places, columns, strict=True)
-    return {
-        one.column.name: _numbers(cells, one.column, mark, block.rows, source, faults) for one, cells in pairs
-    }, faults
+    columns = {one.column: [row[one.at] if one.at < len(row) else "" for row in rows] for one in places}
+    mark, wrong = decimal_mark(chain(*columns.values()))
+    faults += [wrong] if wrong else []
+    texts = {one: list(map(with_point, cells)) if mark == "," else cells for one, cells in columns.items()}
+    return {one.name: _numbers(cells, one, block.rows, faults) for one, cells in texts.items()}, faults
 
 
-def _numbers(
-    cells: Sequence[str], column: Column, mark: str, rows: Sequence[Line], source: str, faults: list[str]
-) -> Sequence[float]:
+def _numbers(cells: Sequence[str], column: Column, rows: Sequence[Line], faults: list[str]) -> Sequence[float]:
     """The numbers in the cells of a column; NaN for what is none, which is added to the faults."""
-    if mark == ",":
-        cells = list(map(with_point, cells))
     with suppress(ValueError):
         found = list(map(float, cells))
         if np.all(np.isfinite(found)) and not any("_" in cell for cell in cells):
             return found
-    return [_number(cell, column, row, source, faults) for cell, row in zip(cells, rows, strict=True)]
+    return [_number(cell, column, row, faults) for cell, row in zip(cells, rows, strict=True)]
 
 
-def _number(cell: str, column: Column, row: Line, source: str, faults: list[str]) -> float:
+def _number(cell: str, column: Column, row: Line, faults: list[str]) -> float:
     if column.empty is not None and cell.strip().casefold() in ("", "inf", "infinity", "∞"):
         return column.empty
     try:
         return number_in(cell)
     except ValueError as wrong:
-        faults.append(one_line(f"{source}: line {row.number}: {wrong} (column {column.name})"))
+        faults.append(f"line {row.number}: {wrong} (column {column.name})")
         return math.nan
