@@ -24,7 +24,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import finite, positive
 from mdr.tools.csv_header import Column
 from mdr.tools.csv_table import Columns, Reading, Table, Units
-from mdr.tools.messages import MOST_TOLD
+from mdr.tools.messages import first_of
 from mdr.tools.noisy_curves import before_it_stands, in_order, reach_of_noise, turning_points
 from mdr.tools.warned import warn_outside
 
@@ -204,9 +204,8 @@ def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
             for one in PARTS
             for n, (first, end) in enumerate(parts[one], 1)
         ]
-        more = [f"and {len(there) - MOST_TOLD} more"] if len(there) > MOST_TOLD else []
         what = f"{len(found)} parts of the curve are" if found else "no part of the curve is"
-        raise table.fault(f"{what} {way}: choose {', '.join([*there[:MOST_TOLD], *more])}")
+        raise table.fault(f"{what} {way}: choose {', '.join(first_of(there))}")
     first, end = found[k]
     rows = np.arange(first, end) if way == "approach" else np.arange(end - 1, first - 1, -1)
     is_high = F[rows] - F[rows].min() > LEAST_RISE * np.ptp(F[rows])

@@ -52,6 +52,11 @@ class Names(NamedTuple):
     cells: list[str]
     units: list[str]
 
+    @property
+    def width(self) -> int:
+        """Cells but the empty ones at their end."""
+        return len(_filled(self.cells))
+
 
 @dataclass
 class Block:
@@ -76,6 +81,13 @@ class Block:
         """Whether it has two columns of numbers, and is more than a line such as "Range, -1, 1"."""
         numbers = [is_like_number(cell) for cell in self.cells(self.rows[0]) if cell]
         return sum(numbers) > 1 and (numbers[0] or len(self.rows) > 2)
+
+    @property
+    def share(self) -> tuple[float, int]:
+        """The share of numbers in the cells of its rows that are as wide as most, and their count."""
+        cut = [cells for line in self.rows[:FAR] if len(cells := self.cells(line)) == self.width]
+        numbers = [is_like_number(cell) for cells in cut for cell in cells if cell]
+        return sum(numbers) / max(len(numbers), 1), sum(numbers)
 
     @property
     def title(self) -> str:
@@ -104,12 +116,17 @@ class Block:
         alike = (cells for cells in (*by_signs, *by_blanks) if len(cells) == self.width)
         return next(alike, max(by_signs, key=len))
 
+    def between(self, names: Names) -> list[Line]:
+        """Lines between its header and its rows that are neither comments nor the units."""
+        lines = [line for line in self.above[-FAR:] if names.line and line.number > names.line.number]
+        return [line for line in lines if not line.is_comment and _bare(self.heads(line)) != names.units]
+
     def names(self) -> Iterator[Names]:
         """What may be its header, the nearest first."""
         words = [*self.beyond, *self.above[-SEARCHED:]]
         of_units = [line for line in words if _UNITS.search(re.split(r"[:=\t;,]", line.text[:60], maxsplit=1)[0])]
         cut = [(line, self.heads(line)) for line in self.above[-8:] if _LETTER.search(line.text)]
-        units = [cells if _most(is_unit, cells := bare(heads)) else [] for _, heads in cut]
+        units = [cells if _most(is_unit, cells := _bare(heads)) else [] for _, heads in cut]
         for i in sorted(range(len(cut)), key=lambda i: (bool(units[i]), -i)):
             near = next(filter(None, [*units[i + 1 :], *units[max(i - 1, 0) : i]]), [])
             told = near or self._units_beside(cut[i][1], of_units)
@@ -122,9 +139,9 @@ class Block:
     def _units_beside(self, names: Sequence[str], of_units: Sequence[Line]) -> list[str]:
         """The units in the last line whose first word says that they are: it stands in the first column, or before."""
         for line in reversed(of_units):
-            own, count = bare(cells_of(line.text, self.separator)), len(filled(names))
-            behind = own[1:] if len(filled(own)) > count else ["", *own[1:]]
-            for cells in (bare(self._keyed(line)), behind):
+            own, count = _bare(cells_of(line.text, self.separator)), len(_filled(names))
+            behind = own[1:] if len(_filled(own)) > count else ["", *own[1:]]
+            for cells in (_bare(self._keyed(line)), behind):
                 if any(map(is_unit, cells)):
                     return cells
         return []
@@ -138,14 +155,26 @@ class Block:
 
 def lines_of(text: str, skip: int | None) -> list[Line]:
     """The lines of a text that hold more than separators, without the first `skip`."""
-    first = max(skip or 0, int(bool(told_separator(text))))
+    first = max(skip or 0, int(separators_of(text) is not SEPARATORS))
     return [Line(n, line) for n, line in enumerate(text.splitlines(), start=1) if n > first and line.strip(" \t,;")]
 
 
-def told_separator(text: str) -> str:
-    """What a first line such as `sep=;` of Excel says; empty without one."""
+def separators_of(text: str) -> Sequence[str]:
+    """What a first line such as `sep=;` of Excel says; without one all that may be."""
     told = re.match(r'"?sep=([^\w"\r\n])"?[,;\t]*\r?$', text, re.IGNORECASE | re.MULTILINE)
-    return told[1] if told else ""
+    return told[1] if told else SEPARATORS
+
+
+def tables(lines: list[Line], separator: str, source: str) -> list[Block]:
+    """The tables of a text, at once where the last one goes on to the end as it begins, with progress."""
+    if len(lines) > SEARCHED and (found := blocks(lines[:SEARCHED], separator)):
+        last = found[-1]
+        rows = lines[lines.index(last.rows[0]) :]
+        last.numbers = numbers_at_once(rows, separator, f"reading {source}")
+        if last.numbers is not None and last.numbers.shape[1] == last.width:
+            last.rows = rows
+            return found
+    return blocks(progress(lines, f"reading {source}", "lines"), separator)
 
 
 def blocks(lines: Iterable[Line], separator: str) -> list[Block]:
@@ -186,26 +215,18 @@ def numbers_at_once(lines: Sequence[Line], separator: str, what: str = "") -> Ar
     return None
 
 
-def share_of_numbers(block: Block) -> tuple[float, int]:
-    """The share of numbers in the cells of its rows that are as wide as most, and their count."""
-    width = block.width
-    cut = [cells for line in block.rows[:FAR] if len(cells := block.cells(line)) == width]
-    numbers = [is_like_number(cell) for cells in cut for cell in cells if cell]
-    return sum(numbers) / max(len(numbers), 1), sum(numbers)
-
-
 def _part(words: Sequence[Line], block: Block) -> bool:
     """Whether words between two rows part them: a line without a number, or a comment that stands above the first."""
     above = {one.text for one in block.above if one.is_comment}
     return any(one.text in above if one.is_comment else not any(map(is_like_number, block.cells(one))) for one in words)
 
 
-def bare(cells: Sequence[str]) -> list[str]:
+def _bare(cells: Sequence[str]) -> list[str]:
     """Cells without brackets."""
     return [cell.strip(" []()/\t\"'<>") for cell in cells]
 
 
-def filled(cells: Sequence[str]) -> Sequence[str]:
+def _filled(cells: Sequence[str]) -> Sequence[str]:
     """Cells without the empty ones at their end."""
     last = max((i for i, cell in enumerate(cells) if cell), default=-1)
     return cells[: last + 1]
@@ -268,19 +289,22 @@ def kind_of(data: bytes) -> str:
     """What a file is that is no text, by its first bytes, and what to do; empty for a text."""
     start = data[:1000].lstrip(b"\xef\xbb\xbf \r\n")
     known = next((kind for kind, firsts in _KINDS.items() if start.startswith(firsts)), "")
-    if known or b"\0" not in data or data[:2] in (b"\xff\xfe", b"\xfe\xff") or _is_utf_16(data):
+    if known or b"\0" not in data or _utf_16(data):
         return known
     return f"no text, it has a zero byte at {data.index(0)}: export it as text or CSV"
 
 
-def _is_utf_16(data: bytes) -> bool:
-    return len(data) > 3 and not any(data[1:200:2]) and all(data[:200:2])
+def _utf_16(data: bytes) -> str:
+    """Which UTF-16 it is; empty for none."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return "utf-16"
+    return "utf-16-le" if len(data) > 3 and not any(data[1:200:2]) and all(data[:200:2]) else ""
 
 
 def decoded(data: bytes) -> tuple[str, str]:
     """The text of a file, and what was guessed of its letters where they are neither UTF-8 nor UTF-16."""
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or _is_utf_16(data):
-        return data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-16-le", "replace"), ""
+    if coding := _utf_16(data):
+        return data.decode(coding, "replace"), ""
     try:
         return data.decode("utf-8-sig"), ""
     except UnicodeDecodeError as wrong:

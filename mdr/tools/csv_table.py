@@ -33,25 +33,9 @@ from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import count
 from mdr.tools.csv_header import Column, Header, Place, fault, repr_of
-from mdr.tools.csv_layout import (
-    FAR,
-    SEARCHED,
-    SEPARATORS,
-    Block,
-    Line,
-    Names,
-    bare,
-    blocks,
-    filled,
-    is_like_number,
-    lines_of,
-    numbers_at_once,
-    share_of_numbers,
-    told_separator,
-)
-from mdr.tools.messages import MOST_TOLD, one_line, short
+from mdr.tools.csv_layout import SEARCHED, Block, Line, Names, blocks, is_like_number, lines_of, separators_of, tables
+from mdr.tools.messages import first_of, one_line, short
 from mdr.tools.notation import converted, decimal_mark, number_in, shown, with_point
-from mdr.tools.progress import progress
 from mdr.tools.warned import warn_outside
 
 Units = Mapping[str, str] | None  #: of columns whose header has none
@@ -123,14 +107,12 @@ class Table:
         row = block.cells(block.rows[0])
         heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
         self.header = Header(heads, names.units, self.columns, reading.units or {}, reading.columns or {}, self.above)
-        top = math.inf if names.line is None else names.line.number
-        for line in block.above[-FAR:]:
-            if line.number > top and not line.is_comment and bare(block.heads(line)) != names.units:
-                where = f"line {line.number}, {short(line.text)}, between header and rows is"
-                if any(map(is_like_number, block.cells(line))):
-                    self.header.faults.append(f"{where} no row")
-                elif any(map(str.isalnum, line.text)):
-                    self.header.said.append(f"{where} left out")
+        for line in block.between(names):
+            where = f"line {line.number}, {short(line.text)}, between header and rows is"
+            if any(map(is_like_number, block.cells(line))):
+                self.header.faults.append(f"{where} no row")
+            elif any(map(str.isalnum, line.text)):
+                self.header.said.append(f"{where} left out")
         cells = [(one.column, row[one.at].strip() if one.at < len(row) else "") for one in self.header.places]
         numbers = [is_like_number(cell) or (one.empty is not None and not cell) for one, cell in cells]
         #: whether all that is needed is there, with numbers below
@@ -147,7 +129,7 @@ class Table:
         """The same, whether it is a table below its header, and whether its cells are numbers."""
         whole, sound, *counts = self.fits
         aligned = len(self.names.cells) == self.block.width
-        return whole, sound, self.block.is_table, aligned, *counts, *share_of_numbers(self.block)
+        return whole, sound, self.block.is_table, aligned, *counts, *self.block.share
 
     @property
     def lines(self) -> list[int]:
@@ -217,7 +199,7 @@ def table_of(text: str, source: str, columns: Sequence[Column], reading: Reading
     _require_known("units", reading.units, names, (str,))
     _require_known("columns", reading.columns, names, (str, int))
     lines = lines_of(text, None if reading.skip is None else count("skip", reading.skip, 0))
-    found = _found_in(lines, partial(Table, source, text, columns, reading), told_separator(text), source)
+    found = _found_in(lines, partial(Table, source, text, columns, reading), separators_of(text), source)
     if not found:
         example = ", ".join(one.example for one in columns if one.needed)
         raise fault(source, f"holds no table; a header such as {example}, and a row a measurement")
@@ -250,38 +232,26 @@ def csv_text(columns: Mapping[str, Any]) -> str:
 MOST_ABOVE = 10_000  #: letters above a table in which words may tell of it
 
 
-def _found_in(lines: list[Line], of: Callable[..., Table], told: str, source: str) -> list[Table]:
+def _found_in(lines: list[Line], of: Callable[..., Table], separators: Sequence[str], source: str) -> list[Table]:
     """The tables, cut by the separator with which one fits best; none where there is no row."""
     best: tuple[Any, str] | None = None
     for part in (lines[:SEARCHED], lines):
-        for separator in told or SEPARATORS:
+        for separator in separators:
             ranks = [one.rank for one in _with_headers(blocks(part, separator), of)]
             if ranks and (best is None or max(ranks) > best[0]):
                 best = max(ranks), separator
         if best is not None and any(best[0][:3]):  # all is there, or a table
             break
-    found = [] if best is None else _with_headers(_cut(lines, best[1], source), of)
-    tables = [one for one in found if one.is_whole or one.block.is_table]
-    return tables or sorted(found, key=lambda one: one.rank, reverse=True)[:1]
+    found = [] if best is None else _with_headers(tables(lines, best[1], source), of)
+    sound = [one for one in found if one.is_whole or one.block.is_table]
+    return sound or sorted(found, key=lambda one: one.rank, reverse=True)[:1]
 
 
-def _cut(lines: list[Line], separator: str, source: str) -> list[Block]:
-    """The tables of all lines, at once where the last one goes on to the end as it begins."""
-    if len(lines) > SEARCHED and (tables := blocks(lines[:SEARCHED], separator)):
-        last = tables[-1]
-        rows = lines[lines.index(last.rows[0]) :]
-        last.numbers = numbers_at_once(rows, separator, f"reading {source}")
-        if last.numbers is not None and last.numbers.shape[1] == last.width:
-            last.rows = rows
-            return tables
-    return blocks(progress(lines, f"reading {source}", "lines"), separator)
-
-
-def _with_headers(tables: Sequence[Block], of: Callable[..., Table]) -> list[Table]:
+def _with_headers(found_blocks: Sequence[Block], of: Callable[..., Table]) -> list[Table]:
     """The tables, each with the best of the headers that it may have."""
     found: dict[int, Table] = {}
     above = ""
-    for block in tables:
+    for block in found_blocks:
         above = " ".join([above, *(line.text for line in block.above)])[-MOST_ABOVE:]
         named = found.get(id(block.named))
         tried = [of(block, names, above) for names in ([named.names] if named else block.names())]
@@ -302,12 +272,9 @@ def _chosen(found: Sequence[Table], source: str, table: int | str | None) -> Tab
         return taken[0]
     numbers = [k for k, one in enumerate(found, start=1) if table is not None or one.is_whole]
     what = "holds" if table is None else f"table={repr_of(table)} names {'several' if taken else 'none'} of"
-    all_told = "; ".join(f"table={k}, {found[k - 1].told}" for k in numbers[:MOST_TOLD])
-    more = f"; and {len(numbers) - MOST_TOLD} more" if len(numbers) > MOST_TOLD else ""
-    raise ValueError(
-        f"{one_line(f'{source}: {what} {len(numbers)} tables, choose one: {all_told}{more}')}\n"
-        f"  to read it as it is: table=..."
-    )
+    told = "; ".join(first_of([f"table={k}, {found[k - 1].told}" for k in numbers]))
+    refused = fault(source, f"{what} {len(numbers)} tables, choose one: {told}")
+    raise ValueError(f"{refused}\n  to read it as it is: table=...")
 
 
 def _left_out(found: Sequence[Table], chosen: Table, lines: Sequence[Line]) -> str:
@@ -325,8 +292,7 @@ def _left_out(found: Sequence[Table], chosen: Table, lines: Sequence[Line]) -> s
 
 def _first(faults: Sequence[str], source: str) -> list[str]:
     """The first faults, a line each, and how many more there are."""
-    more = [f"and {len(faults) - MOST_TOLD} more"] if len(faults) > MOST_TOLD else []
-    return [one_line(f"{source}: {one}") for one in [*faults[:MOST_TOLD], *more]]
+    return [one_line(f"{source}: {one}") for one in first_of(faults)]
 
 
 # --- values ---
@@ -364,7 +330,7 @@ def _require_known(name: str, given: Mapping[str, Any] | None, known: Sequence[s
 def _values_of(table: Table) -> tuple[dict[str, Sequence[float] | Array], list[str]]:
     """The numbers of each column, and what is wrong with cells and rows."""
     block, header = table.block, table.header
-    heads, places = len(filled(table.names.cells)), header.places
+    heads, places = table.names.width, header.places
     numbered = all(str(header.called.get(one.column.name)).isdigit() for one in places)
     exact = block.separator == " "
     width = block.width if numbered or not heads or (exact and heads > block.width) else heads

@@ -50,6 +50,11 @@ def one_line(text: str, longest: int = 400) -> str:
     return short(" ".join(plain.split()), longest)
 
 
+def first_of(told: Sequence[str]) -> list[str]:
+    """The first of what is to be told, and how many more there are."""
+    return [*told[:MOST_TOLD], *([f"and {len(told) - MOST_TOLD} more"] if len(told) > MOST_TOLD else [])]
+
+
 def most_frequent(reasons: Iterable[str]) -> list[str]:
     """The most frequent of some reasons with their numbers, "" left out; those alike but for numbers count as one."""
     kinds: dict[str, list[str]] = {}

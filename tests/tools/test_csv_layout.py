@@ -1,10 +1,11 @@
 """Where a table stands: cells of a line, lines above a header, a row of units, several tables, letters of a file."""
 
+from operator import attrgetter
+
 import pytest
 from numpy.testing import assert_array_equal
 
 from mdr.tools.csv_layout import (
-    SEPARATORS,
     blocks,
     cells_of,
     decoded,
@@ -12,8 +13,7 @@ from mdr.tools.csv_layout import (
     kind_of,
     lines_of,
     numbers_at_once,
-    share_of_numbers,
-    told_separator,
+    separators_of,
 )
 
 
@@ -51,8 +51,8 @@ TABLES = {
 
 @pytest.mark.parametrize(("text", "below"), TABLES.values(), ids=TABLES)
 def test_the_header_stands_above_the_rows(text, below):
-    lines, told = lines_of(text, None), told_separator(text)
-    found = max((one for by in told or SEPARATORS for one in blocks(lines, by)), key=share_of_numbers)
+    lines = lines_of(text, None)
+    found = max((one for by in separators_of(text) for one in blocks(lines, by)), key=attrgetter("share"))
     names = next(found.names())
     assert [head.partition(" ")[0] for head in names.cells] == ["t", "a"]
     assert names.units == below
