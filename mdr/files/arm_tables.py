@@ -11,8 +11,8 @@ from mdr.files.case_files import record_of
 from mdr.files.measurements import LIKELY_MODULUS, read_table
 from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals, instantaneous_of
 from mdr.files.toml_text import parse_toml, read_text, tried
-from mdr.tools.csv_header import Column, fault
-from mdr.tools.csv_table import Reading, Table, warn_of_size
+from mdr.tools.csv_header import Column, Reading, fault
+from mdr.tools.csv_table import Table, warn_of_size
 from mdr.tools.messages import short
 
 #: moduli in Pa, shear moduli in Pa, or shares of the instantaneous modulus

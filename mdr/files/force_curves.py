@@ -22,8 +22,8 @@ from mdr.files.measurements import read_table
 from mdr.indenters.mapping.force_curves import TIPS, tip_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite, positive
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Table, Units
+from mdr.tools.csv_header import Column, Columns, Reading, Units
+from mdr.tools.csv_table import Table
 from mdr.tools.messages import first_of
 from mdr.tools.noisy_curves import before_it_stands, in_order, reach_of_noise, turning_points
 from mdr.tools.warned import warn_outside

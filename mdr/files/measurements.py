@@ -21,9 +21,9 @@ from mdr.materials.base import poisson_ratio
 from mdr.materials.prony_fit import ONE, TOLD, twice
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, positive
-from mdr.tools.csv_header import Column, fault, repr_of
+from mdr.tools.csv_header import Column, Columns, Reading, Units, fault, repr_of
 from mdr.tools.csv_layout import decoded, kind_of
-from mdr.tools.csv_table import Columns, Reading, Table, Units, table_of
+from mdr.tools.csv_table import Table, table_of
 from mdr.tools.messages import MOST_TOLD
 from mdr.tools.notation import ZEROS
 from mdr.tools.warned import warn_outside
@@ -38,31 +38,24 @@ OF_SHEAR = ("torque", "viscosity", "shear", "rheometer", "plate")
 OF_TENSION = ("DMA", "tension", "tensile", "bending", "cantilever", "Young")
 
 
-def _moduli(
-    names: tuple[str, str, str], more: tuple[tuple[str, ...], ...], beside: tuple[str, ...], way_out: str
-) -> tuple[Column, Column, Column]:
+def _moduli(beside: tuple[str, ...], way_out: str, *names: tuple[str, ...]) -> tuple[Column, ...]:
     """Storage, loss and absolute modulus of one way to load, which instruments call by the same words."""
-    storage, loss, absolute = (
-        Column(name, own, "Pa", needed=False, likely=LIKELY_MODULUS, beside=beside, doubtful=words, asked=way_out)
-        for name, own, words in zip(
-            names, more, (("storage modulus",), ("loss modulus",), ("complex modulus", "dynamic modulus")), strict=True
-        )
+    words = ("storage modulus",), ("loss modulus",), ("complex modulus", "dynamic modulus")
+    sizes = LIKELY_MODULUS, (0.0, math.inf), LIKELY_MODULUS
+    return tuple(
+        Column(name, tuple(own), "Pa", needed=False, likely=size, beside=beside, doubtful=said, asked=way_out)
+        for (name, *own), said, size in zip(names, words, sizes, strict=True)
     )
-    return storage, loss._replace(likely=(0.0, math.inf)), absolute
 
 
 TENSION = _moduli(
-    ("storage", "loss", "|E*|"),
-    (("E'", "tensile storage modulus"), ("E''", "tensile loss modulus"), ("|E|", "E*")),
-    OF_TENSION,
-    "",
-)
+    OF_TENSION, "", ("storage", "E'", "tensile storage modulus"), ("loss", "E''", "tensile loss modulus"),
+    ("|E*|", "|E|", "E*"),
+)  # fmt: skip
 SHEAR = _moduli(
-    ("G'", "G''", "|G*|"),
-    (("shear storage modulus",), ("shear loss modulus",), ("|G|", "G*", "complex shear modulus")),
-    OF_SHEAR,
-    "of shear, give nu= too",
-)
+    OF_SHEAR, "of shear, give nu= too", ("G'", "shear storage modulus"), ("G''", "shear loss modulus"),
+    ("|G*|", "|G|", "G*", "complex shear modulus"),
+)  # fmt: skip
 MODULI = (
     Column("omega", ("ω", "w", "f", "frequency", "freq", "angular frequency"), "rad/s", lone=True),
     *TENSION,

@@ -10,19 +10,16 @@ from mdr.files.measurements import read_table
 from mdr.files.recorded_motion import counted
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import positive
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Reading, Table
+from mdr.tools.csv_header import Column, Reading
+from mdr.tools.csv_table import Table
 
 PROFILE = (
     Column(
-        "r",
-        ("x", "radius", "position", "distance", "lateral", "X position", "length"),
-        "m",
-        likely=(1e-10, 1.0),
+        "r", ("x", "radius", "position", "distance", "lateral", "X position", "length"), "m", likely=(1e-10, 1.0),
         instead="pitch=, in m, for even steps",
     ),
     Column("f", ("h", "z", "height", "profile", "total profile", "raw height"), "m", likely=(0.0, 1.0)),
-)
+)  # fmt: skip
 
 
 def profile_points(

@@ -14,8 +14,8 @@ from mdr.files.force_curves import HEIGHTS
 from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import positive
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Table, Units, warn_of_size
+from mdr.tools.csv_header import Column, Columns, Reading, Units
+from mdr.tools.csv_table import Table, warn_of_size
 from mdr.tools.messages import short
 from mdr.tools.notation import GRAVITY, is_number, parted, scale_of, shown
 from mdr.tools.warned import warn_outside

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from mdr.files.measurements import LIKELY_MODULUS, read_table, stretch_of
 from mdr.tools.arrays import Array
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Units
+from mdr.tools.csv_header import Column, Columns, Reading, Units
 
 LIKELY = (1 / LIKELY_MODULUS[1], 1 / LIKELY_MODULUS[0])
 TIME = Column("t", ("time", "step time", "time since the step"), "s", lone=True)

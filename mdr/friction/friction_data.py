@@ -20,8 +20,8 @@ from mdr.case.doubts import GREATEST_MU_0
 from mdr.files.measurements import read_table
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite, finite_array, positive
-from mdr.tools.csv_header import Column
-from mdr.tools.csv_table import Columns, Reading, Table, Units
+from mdr.tools.csv_header import Column, Columns, Reading, Units
+from mdr.tools.csv_table import Table
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 from mdr.tools.warned import warn_outside

@@ -22,8 +22,8 @@ from mdr.indenters.mapping.splines import DEGREE
 from mdr.indenters.sampled_profile import MOST_JOINTS, NOISE, column, not_ascending, require_ascent, require_pairs
 from mdr.tools.arrays import EPS, SAME, Array
 from mdr.tools.checks import finite_array, not_negative, plain, positive_array
-from mdr.tools.csv_header import fault
-from mdr.tools.csv_table import Columns, Units, warn_of_size
+from mdr.tools.csv_header import Columns, Units, fault
+from mdr.tools.csv_table import warn_of_size
 from mdr.tools.fields import facts
 from mdr.tools.warned import warn_outside
 

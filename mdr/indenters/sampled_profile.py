@@ -17,8 +17,7 @@ from mdr.indenters.mapping.shape_check import FINE, Left, told_smoothing, why_no
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive
-from mdr.tools.csv_header import fault
-from mdr.tools.csv_table import Columns, Reading, Units
+from mdr.tools.csv_header import Columns, Reading, Units, fault
 from mdr.tools.fields import facts
 from mdr.tools.warned import warn_outside
 

@@ -22,8 +22,7 @@ from numpy.typing import ArrayLike
 from mdr.materials import prony_fit, step_fit
 from mdr.materials.base import POISSON, Arms, OneBody, poisson_ratio
 from mdr.tools.checks import not_negative, positive
-from mdr.tools.csv_header import fault
-from mdr.tools.csv_table import Columns, Reading, Units
+from mdr.tools.csv_header import Columns, Reading, Units, fault
 from mdr.tools.fields import facts
 
 

@@ -22,6 +22,8 @@ from typing import NamedTuple
 from mdr.tools.messages import one_line, short
 from mdr.tools.notation import is_unit, listed, scale_of
 
+Units = Mapping[str, str] | None  #: of columns whose header has none
+Columns = Mapping[str, str | int] | None  #: name or number, from 1, of columns; "" leaves one out
 _BRACKETS = re.compile(r"\s*(?:\[(?P<square>[^\])\[(]*)[\])]|[(<{](?P<round>[^\])\[(<>}]*)[\])>}])\s*")
 _BEHIND = re.compile(r"(?P<name>.*?)(?:\s*/\s*(?P<slash>[^\s\[\]()][^\[\]()]*)|(?:,|\s+in)\s+(?P<after>[^\s,()\[\]]+))")
 _LOGARITHM = re.compile(r"(?:log|lg|ln)(?:_?10)?(?=[\s_(\[.])", re.IGNORECASE)
@@ -82,6 +84,15 @@ class Column(NamedTuple):
         return bool(unit) and scale_of(unit, self.unit) is not None
 
 
+class Reading(NamedTuple):
+    """What is said of a file beside its text."""
+
+    units: Units = None
+    columns: Columns = None
+    skip: int | None = None  #: lines above the header; None finds it
+    table: int | str | None = None  #: which table of the file, from 1, or words of a line above it; None: the only one
+
+
 class Place(NamedTuple):
     """A column that was found."""
 
@@ -102,19 +113,16 @@ class Head(NamedTuple):
     @classmethod
     def of(cls, cell: str, below: str = "") -> Head:
         """Name and unit in a cell, or in one below it."""
-        whole, unsure = " ".join(cell[:LONGEST].split()), None
-        brackets = list(_BRACKETS.finditer(whole))
-        for found in brackets:
+        whole = " ".join(cell[:LONGEST].split())
+        *others, found = [None, *_BRACKETS.finditer(whole)]
+        if found:
             unit = (found["square"] or found["round"] or "").strip()
-            named = cls(whole, f"{whole[: found.start()]} {whole[found.end() :]}".strip(), unit, True, False)
-            if is_unit(unit) and len(brackets) == 1:
-                return named
-            if found.end() == len(whole) and named.name and unit:
-                sure = is_unit(unit) or found["square"] is not None or any(one in unit for one in "/^")
-                unsure = named._replace(is_sure=sure)
-        if unsure is not None and (unsure.is_sure or not below):
-            return unsure
-        if not brackets and (behind := _BEHIND.fullmatch(whole)):
+            name = f"{whole[: found.start()]} {whole[found.end() :]}".strip()
+            sure = is_unit(unit) or found["square"] is not None or any(one in unit for one in "/^")
+            is_alone = is_unit(unit) and len(others) == 1
+            if is_alone or (found.end() == len(whole) and name and unit and (sure or not below)):
+                return cls(whole, name, unit, sure, False)
+        elif behind := _BEHIND.fullmatch(whole):
             unit = (behind["slash"] or behind["after"]).strip()
             return cls(whole, behind["name"], unit, is_unit(unit), False)
         if below:
@@ -161,14 +169,9 @@ class Header:
     """The cells of a header, the columns that are looked for in it, and what is wrong."""
 
     def __init__(
-        self,
-        cells: Sequence[str],
-        below: Sequence[str],
-        columns: Sequence[Column],
-        units: Mapping[str, str],
-        called: Mapping[str, str | int],
-        above: str = "",
+        self, cells: Sequence[str], below: Sequence[str], columns: Sequence[Column], reading: Reading, above: str
     ) -> None:
+        units, called = reading.units or {}, reading.columns or {}
         self.columns, self.units, self.called, self.above = columns, units, called, above
         self.heads = [Head.of(cell, unit) for cell, unit in zip_longest(cells, below, fillvalue="")]
         others = [(own, one) for name, own in called.items() for one in columns if one.name != name]

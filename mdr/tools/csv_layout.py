@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.tools.arrays import Array
+from mdr.tools.messages import short
 from mdr.tools.notation import decimal_mark, is_unit
 from mdr.tools.progress import progress
 
@@ -90,10 +91,11 @@ class Block:
         return sum(numbers) / max(len(numbers), 1), sum(numbers)
 
     @property
-    def title(self) -> str:
-        """Words above its header."""
+    def told(self) -> str:
+        """Where it stands, below which words."""
         words = [one.text.strip(" #%\t;,") for one in self.above if len(self.heads(one)) < max(self.width, 2)]
-        return words[-1] if words else ""
+        below = f', below "{short(words[-1])}"' if words and words[-1] else ""
+        return f"lines {self.rows[0].number} to {self.rows[-1].number}{below}"
 
     def stand_below(self, before: Block) -> None:
         """What a new table has from the one before it."""

@@ -24,7 +24,7 @@ from functools import partial
 from io import StringIO
 from itertools import chain
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,14 +32,11 @@ from numpy.typing import NDArray
 from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import count
-from mdr.tools.csv_header import Column, Header, Place, fault, repr_of
+from mdr.tools.csv_header import Column, Header, Place, Reading, fault, repr_of
 from mdr.tools.csv_layout import SEARCHED, Block, Line, Names, blocks, is_like_number, lines_of, separators_of, tables
 from mdr.tools.messages import first_of, one_line, short
 from mdr.tools.notation import converted, decimal_mark, number_in, shown, with_point
 from mdr.tools.warned import warn_outside
-
-Units = Mapping[str, str] | None  #: of columns whose header has none
-Columns = Mapping[str, str | int] | None  #: name or number, from 1, of columns; "" leaves one out
 
 
 class Tabled:
@@ -80,15 +77,6 @@ class Tabled:
         return pandas.read_csv(StringIO(self.table()), keep_default_na=False, na_values=["nan"], engine="python")
 
 
-class Reading(NamedTuple):
-    """What is said of a file beside its text."""
-
-    units: Units = None
-    columns: Columns = None
-    skip: int | None = None  #: lines above the header; None finds it
-    table: int | str | None = None  #: which table of the file, from 1, or words of a line above it; None: the only one
-
-
 @dataclass(eq=False)
 class Table:
     """A table of a text with a header that it may have; its values once they are read."""
@@ -103,10 +91,10 @@ class Table:
     values: dict[str, Array] = field(default_factory=dict)  #: each column (n,) in the unit of the library
 
     def __post_init__(self) -> None:
-        block, names, reading = self.block, self.names, self.reading
+        block, names = self.block, self.names
         row = block.cells(block.rows[0])
         heads = [*names.cells, *[""] * (len(row) - len(names.cells))]
-        self.header = Header(heads, names.units, self.columns, reading.units or {}, reading.columns or {}, self.above)
+        self.header = Header(heads, names.units, self.columns, self.reading, self.above)
         for line in block.between(names):
             where = f"line {line.number}, {short(line.text)}, between header and rows is"
             if any(map(is_like_number, block.cells(line))):
@@ -135,13 +123,6 @@ class Table:
     def lines(self) -> list[int]:
         """Where each row stands in the file."""
         return [row.number for row in self.block.rows]
-
-    @property
-    def told(self) -> str:
-        """Where it stands, below which words."""
-        title = self.block.title
-        below = f', below "{short(title)}"' if title else ""
-        return f"lines {self.block.rows[0].number} to {self.block.rows[-1].number}{below}"
 
     def fault(self, what: str) -> ValueError:
         """The error of this file."""
@@ -272,7 +253,7 @@ def _chosen(found: Sequence[Table], source: str, table: int | str | None) -> Tab
         return taken[0]
     numbers = [k for k, one in enumerate(found, start=1) if table is not None or one.is_whole]
     what = "holds" if table is None else f"table={repr_of(table)} names {'several' if taken else 'none'} of"
-    told = "; ".join(first_of([f"table={k}, {found[k - 1].told}" for k in numbers]))
+    told = "; ".join(first_of([f"table={k}, {found[k - 1].block.told}" for k in numbers]))
     refused = fault(source, f"{what} {len(numbers)} tables, choose one: {told}")
     raise ValueError(f"{refused}\n  to read it as it is: table=...")
 
@@ -280,7 +261,7 @@ def _chosen(found: Sequence[Table], source: str, table: int | str | None) -> Tab
 def _left_out(found: Sequence[Table], chosen: Table, lines: Sequence[Line]) -> str:
     """Lines that are not read, though they have numbers or stand below the table."""
     place = found.index(chosen)
-    said = [f"{one.told}, are another table and left out" for one in found[:place] if one.block.is_table]
+    said = [f"{one.block.told}, are another table and left out" for one in found[:place] if one.block.is_table]
     if remarks := chosen.block.remarks:
         more = f" and {len(remarks) - 1} more" if len(remarks) > 1 else ""
         said.append(f"line {remarks[0].number}, {short(remarks[0].text)},{more} is a comment and left out")

@@ -158,6 +158,11 @@ X, H, D, P = 1e6 * RADII, 1e6 * HEIGHTS, 1e9 * DEPTHS, 1e6 * FORCES  # um, um, n
 V, MU = np.array([0.5, 1.0, 2.0]), np.array([0.31, 0.35, 0.4])
 COF = {"v_0": V * 1e-3, "cof": MU}
 tabs, curve = partial(rows, by="\t"), mdr.read_force_curve
+STEPS = "".join(
+    f"[step]\nFrequency sweep - {k}\nAngular frequency\tStorage modulus\tLoss modulus\tOscillation torque\n"
+    "rad/s\tMPa\tMPa\tuN.m\n" + tabs(W, k * STORAGE, LOSS, o) + "\n"
+    for k in (1, 2)
+)
 #: forms of instruments, with made-up rows: reader, text, what is given, what is right at once, or with what the refusal
 #: prints to be copied; None where the file says too little: it is refused, and what is printed has `...`
 INSTRUMENTS = {
@@ -168,12 +173,8 @@ INSTRUMENTS = {
     "TA Trios, DMA850": (moduli, ("Filename\tbar 3\nInstrument name\tDMA850\nGeometry name\tDual cantilever\n[step]\n"
         "Frequency sweep\nFrequency\tStorage modulus\tLoss modulus\tTan delta\tTemperature\n" "Hz\tMPa\tMPa\t\t°C\n")
         + tabs(HERTZ, STORAGE, LOSS, TAN, 25 * o), {}, TENSION),
-    "TA Trios, two steps": (moduli, "".join(("[step]\n" f"Frequency sweep - {k}\n"
-        "Angular frequency\tStorage modulus\tLoss modulus\tOscillation torque\n" "rad/s\tMPa\tMPa\tuN.m\n") + tabs(W,
-        k * STORAGE, LOSS, o) + "\n" for k in (1, 2)), N, None),
-    "TA Trios, two steps, the first": (moduli, "".join(("[step]\n" f"Frequency sweep - {k}\n"
-        "Angular frequency\tStorage modulus\tLoss modulus\tOscillation torque\n" "rad/s\tMPa\tMPa\tuN.m\n") + tabs(W,
-        k * STORAGE, LOSS, o) + "\n" for k in (1, 2)), {**N, "table": "sweep - 1"}, SHEAR),
+    "TA Trios, two steps": (moduli, STEPS, N, None),
+    "TA Trios, two steps, the first": (moduli, STEPS, {**N, "table": "sweep - 1"}, SHEAR),
     "RheoCompass": (moduli, ("Project:\tPDMS\nTest:\tSweep\nResult:\t\nInterval and data points:\t1\t3\n\n"
         "Interval data:\tPoint No.\tAngular Frequency\tStorage Modulus\tLoss Modulus\tLoss Factor\tTorque\n"
         "\t\t[rad/s]\t[Pa]\t[Pa]\t[1]\t[mN·m]\n") + "".join("\t" + line + "\n" for line in tabs(n, W, 1e6 * STORAGE,

@@ -8,7 +8,8 @@ from mdr.files.measurements import MODULI
 from mdr.files.profiles import PROFILE
 from mdr.files.recorded_motion import MOTION
 from mdr.friction.friction_data import FRICTION, VELOCITY
-from mdr.tools.csv_table import Reading, table_of
+from mdr.tools.csv_header import Reading
+from mdr.tools.csv_table import table_of
 
 WANTED = {
     "motion": (MOTION, {"t": "t [ms]", "a_z": "a [g]"}),
