@@ -114,12 +114,12 @@ class Head(NamedTuple):
     def of(cls, cell: str, below: str = "") -> Head:
         """Name and unit in a cell, or in one below it."""
         whole = " ".join(cell[:LONGEST].split())
-        *others, found = [None, *_BRACKETS.finditer(whole)]
-        if found:
+        if brackets := list(_BRACKETS.finditer(whole)):
+            found = brackets[-1]
             unit = (found["square"] or found["round"] or "").strip()
             name = f"{whole[: found.start()]} {whole[found.end() :]}".strip()
             sure = is_unit(unit) or found["square"] is not None or any(one in unit for one in "/^")
-            is_alone = is_unit(unit) and len(others) == 1
+            is_alone = is_unit(unit) and len(brackets) == 1
             if is_alone or (found.end() == len(whole) and name and unit and (sure or not below)):
                 return cls(whole, name, unit, sure, False)
         elif behind := _BEHIND.fullmatch(whole):
