@@ -60,10 +60,7 @@ def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     example = "E_j [MPa], tau_j [s], or G_j of shear, or shares g_j"
     kind = table.one_of([(one,) for one in MODULI], "no E_j", example, "E_j")[0].name
     tau, E = table.values["tau_j"], table.values[kind]
-    if not np.all(good := (E >= 0) & (tau > 0)):
-        i, unit = int(np.argmin(good)), "" if kind == "g_j" else " Pa"
-        what = f"must have {kind} >= 0{unit} and tau_j > 0 s, got {E[i]:.6g}{unit} and {tau[i]:.6g} s"
-        raise table.fault(f"line {table.lines[i]}: {what}")
+    table.require((E >= 0) & (tau > 0), f"must have {kind} >= 0{'' if kind == 'g_j' else ' Pa'} and tau_j > 0 s")
     bulk = table.values.get("k_j", E)
     if not np.all((1 - 2 * nu) / 3 * np.abs(bulk - E) <= ROUNDED):  # by which E_j then is another share than G_j
         what = f"k_j must equal g_j at nu = {nu:.6g}, as Poisson's ratio is constant here"

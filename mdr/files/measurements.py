@@ -204,12 +204,12 @@ def _celsius(table: Table) -> Array:
 
 def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]:
     """The rows of one temperature [°C]. Refused where it must be chosen, or is not there."""
-    if temperature is not None:
-        temperature = finite("temperature", temperature, "in °C")
+    every = np.arange(len(table.lines))
+    temperature = None if temperature is None else finite("temperature", temperature, "in °C")
     if "T" not in table.values:
         if temperature is not None:
             raise table.lacks("no temperature", "f [Hz], T [degC], E' [MPa], E'' [MPa]", "T")
-        return np.arange(len(table.lines))
+        return every
     T = _celsius(table)
     known = np.sort(T)
     means = [part.mean() for part in np.split(known, np.flatnonzero(np.diff(known) > WITHIN) + 1)]
@@ -220,7 +220,7 @@ def _at_temperature(table: Table, temperature: float | None) -> NDArray[np.intp]
             example = f"temperature={T[0]:.4g}"
             master = 'of a master curve, shifted to one, leave the column out, columns={"T": ""}'
             raise table.fault(f"moduli at several temperatures, {there} degC: choose one, {example}; {master}")
-        return np.arange(T.size)
+        return every
     if not np.any(near := np.abs(T - temperature) <= WITHIN * (1 + SAME)):
         raise table.fault(f"no moduli within {WITHIN:g} K of temperature = {temperature:.6g} degC; there are {there}")
     if np.any(beside := ~near & (np.abs(T - temperature) <= 2 * WITHIN)):
@@ -247,10 +247,9 @@ def _look_for_repeats(table: Table, taken: NDArray[np.intp], omega: Array, modul
         return
     i = again[0]
     near = np.abs(omega / omega[i] - 1) <= ONE
-    j = int(np.argmax(np.where(near, np.abs(modulus - modulus[i]), 0.0)))
-    one, two = sorted((i, j))
-    lines = " and ".join(str(table.lines[taken[k]]) for k in (one, two))
-    values = " and ".join(f"{modulus[k].real:.4g}" for k in (one, two))
+    pair = sorted((i, int(np.argmax(np.where(near, np.abs(modulus - modulus[i]), 0.0)))))
+    lines = " and ".join(str(table.lines[taken[k]]) for k in pair)
+    values = " and ".join(f"{modulus[k].real:.4g}" for k in pair)
     what = f"lines {lines} have one frequency, {omega[i] / (2 * np.pi):.4g} Hz, and storage moduli {values} Pa"
     if is_one:
         warn_outside(f"{table.source}: {what}: give one sample, or the mean")

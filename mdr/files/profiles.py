@@ -11,7 +11,6 @@ from mdr.files.recorded_motion import counted
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.checks import positive
 from mdr.tools.csv_header import Column, Reading
-from mdr.tools.csv_table import Table
 
 PROFILE = (
     Column(
@@ -33,7 +32,11 @@ def profile_points(
         table.values["r"] = counted(table, PROFILE[0], positive("pitch", pitch, "in m"), "pitch")
     x, f = table.values["r"] - apex, table.values["f"] * (-1 if flip else 1)
     tiny = EPS**0.5 * float(np.max(np.abs(x)))  # two points that agree to half of their digits are one
-    _refuse_repeated(table, x, tiny)
+    order = np.argsort(x, kind="stable")
+    if (again := np.flatnonzero(np.diff(x[order]) <= tiny)).size:
+        one, two = sorted(table.lines[order[again[0] + k]] for k in (0, 1))
+        r = table.values["r"][order[again[0]]]
+        raise table.fault(f"lines {one} and {two} both have r = {r:.6g} m; give one, or their mean")
     at_tip = np.flatnonzero(np.abs(x) <= tiny)
     if not at_tip.size:
         low, high = (table.values["r"][take(table.values["f"])] for take in (np.argmin, np.argmax))
@@ -52,12 +55,3 @@ def profile_points(
     if f[-1] < f[0]:
         raise table.fault("heights fall away from the tip; of a tip that was measured pointing up, give flip=True")
     return r, f
-
-
-def _refuse_repeated(table: Table, x: Array, tiny: float) -> None:
-    order = np.argsort(x, kind="stable")
-    again = np.flatnonzero(np.diff(x[order]) <= tiny)
-    if again.size:
-        one, two = sorted(table.lines[order[again[0] + k]] for k in (0, 1))
-        r = table.values["r"][order[again[0]]]
-        raise table.fault(f"lines {one} and {two} both have r = {r:.6g} m; give one, or their mean")
