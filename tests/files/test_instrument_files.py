@@ -128,6 +128,10 @@ READ = {
                               {"d": np.arange(7) * 1e-9, "F": np.array([0, 1, 3, 6, 10, 15, 21]) * 1e-9}),
     "friction with an error of the COF": (friction, "v [mm/s], COF, SD (COF)\n1, 0.3, 0.01\n", {}, {"error": [0.01]}),
     "friction with its error": (friction, "v [mm/s], mu, SD\n1, 0.3, 0.01\n", {}, {"error": [0.01]}),
+    "forces beside a COF are not looked at": (
+        friction, "v [mm/s],mu,Fx [V],Fz [N],normal force [N]\n1,0.3,,,\n", {}, {"v_0": [1e-3], "cof": [0.3]}),
+    "forces without units": (
+        friction, "v [mm/s],Ft,Fn\n1,3,10\n", {"units": {"F_t": "N", "F_n": "N"}}, {"v_0": [1e-3], "cof": [0.3]}),
     "friction in per cent": (friction, "v [mm/s], mu [%], V [V]\n1, 30, 2\n", {}, {"v_0": [1e-3], "cof": [0.3]}),
 }  # fmt: skip
 #: the same for forms that say too little; the words are those of the refusal without what is given
