@@ -154,7 +154,8 @@ class Table:
         _, *others = there = [*filter(None, names)]
         if others:
             without = ", ".join(f'{repr_of(name)}: ""' for kind in others for name in kind)
-            raise self.fault(f"{' and '.join(kind[0] for kind in there)}: leave one out, columns={{{without}}}")
+            both = " and ".join(kind[0] for kind in there)
+            raise self.fault(f"{both}: one is read; leave one out, columns={{{without}}}")
         return kinds[names.index(there[0])]
 
     def again(self, columns: Sequence[Column], reading: Reading) -> dict[str, Array]:
