@@ -249,7 +249,7 @@ class Header:
                 is_index = head.is_suffix and not column.measured_in(head.unit) and len(head.unit) == 1
                 by_whole = not isinstance(own, int) and _spelling(head.name, (own,)) is None and not head.is_sure
                 self._take(column, found, "" if is_index or by_whole else head.unit)
-                if head.is_logarithm and not isinstance(own, int):
+                if head.is_logarithm:
                     self.faults.append(f"{short(head.whole)} is a logarithm: give its power of the base in the file")
 
     def _cells_called(self, own: str) -> list[int]:

@@ -225,6 +225,8 @@ INSTRUMENTS = {
     "R, names of rows": (moduli, "f,E1,E2\n" + tabs(n, HERTZ, STORAGE, LOSS, by=","), {"columns": {"omega": "f",
         "storage": "E1", "loss": "E2"}, "units": {"omega": "Hz", "storage": "MPa", "loss": "MPa"}}, None),
     "logarithms": (moduli, ("log f [Hz],log E' [Pa],log E'' [Pa]\n" "0.5,6.31,5.3\n" "1,6.35,5.5\n"), {}, None),
+    "logarithms, by number": (moduli, "log f [Hz],log E' [Pa],log E'' [Pa]\n0.5,6.31,5.3\n", {"columns": {"omega": 1,
+        "storage": 2, "loss": 3}}, None),
     "log10(ω)": (moduli, "log10(ω),log10(G'),log10(G'')\n0.5,6.31,5.3\n1,6.35,5.5\n", N, None),
     "storage modulus alone": (moduli, "Frequency (Hz),Storage modulus (MPa),Loss modulus (MPa)\n" + tabs(HERTZ,
         STORAGE, LOSS, by=","), {}, None),
