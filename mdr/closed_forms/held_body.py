@@ -17,8 +17,10 @@ whatever the shape. Shaken across as well, forces are vectors, and Q must lie in
 -F(t) at every instant. On a dashpot springs come to their limits one after the other, and Q is a little more.
 
 A curved contact yields more than k_xc tells, as its edge slips and moves: for k_xc stands its secant stiffness between
-the ends of F(t), by Masing's rule, under the least load. What it yields more has higher harmonics too, up to the third
-in the main, and with the greatest Z_n of these it bounds what is left out. A flat punch has nothing of it.
+the ends of F(t), by Masing's rule. What it yields more, y, has harmonics of its own: by slip those of f |f|, with f = F
+over its swing, and by the swing of its load those of the integral of F_N f'. Each changes the force by no more than
+|Z_n K_n/(K_n + Z_n)| |y_n|, and their sum, with y of the size that it has under the least load, is the error. A flat
+punch has nothing of it.
 """
 
 from __future__ import annotations
@@ -35,7 +37,6 @@ from mdr.tools.arrays import EXACT, Array
 
 INSTANTS = 4096  #: of a period
 CLOSE = 1e-3  #: error, over mu_0, up to which this is asked first
-HIGHEST = 3  #: harmonic, over that of what moves, of what a curved contact yields more
 
 
 class Held(NamedTuple):
@@ -59,14 +60,12 @@ def held_forward(case: SlidingContact) -> Held | None:
     linear = _held(case, case.k_xc, limit)
     if linear is None:
         return None
-    secant = _secant(case, linear.swing, float(limit.min()))
+    least = float(limit.min())
+    secant = _secant(case, linear.swing, case.working_depth, least)
     found = _held(case, secant, limit)
     if found is None:
         return None
-    load, more = mean_normal_force(case), linear.swing * abs(1 / secant - 1 / case.k_xc)
-    highest = HIGHEST * max(case.cycle.harmonics.size, case.shake_harmonics.size, case.harmonics_across.size)
-    stiffest = np.abs(case.pull.dynamic_stiffness(case.omega * np.arange(1, highest + 1))).max()
-    missed = abs(found.most - linear.most) + float(stiffest) * more
+    load, missed = mean_normal_force(case), abs(found.most - linear.most) + _left_out(case, linear.swing, limit)
     return Held(found.most / load, found.aside / load, missed / load + EXACT * case.mu_0)
 
 
@@ -105,9 +104,37 @@ def _furthest(f_x: Array, f_y: Array, limit: Array) -> tuple[float, float]:
     return -short(y), y
 
 
-def _secant(case: SlidingContact, swing: float, least: float) -> float:
-    """Tangential stiffness [N/m] between the ends of a force that swings by this [N], where the limit is least [N]."""
-    depth, shape = case.working_depth, case.indenter
+def _left_out(case: SlidingContact, swing: float, limit: Array) -> float:
+    """Bound on the force [N] that goes with what a contact yields more, with a force that swings by this [N]."""
+    least, shape, stiff = float(limit.min()), case.indenter, case.k_xc
+    depth = static_depth(shape, case.material, least / case.mu_0) if least > 0 else 0.0
+    softest = min(_secant(case, swing, one, least) for one in (case.working_depth, depth))
+    soft = float(shape.stiffness(depth, case.material.E_star)) / case.material.mindlin_ratio
+    soft = min(max(soft, softest), stiff)  # that of a contact that does not slip, under the least load
+    forces = {across: case.borne(case.k_xc, across=across) for across in (False, True)}
+    sized = np.hypot(*(at_instants(one, limit.size) for one in forces.values()))
+    n = np.arange(1, limit.size // 4)
+    change = limit - 0.5 * (limit.max() + limit.min())
+    change = change / max(change.max(), EXACT * limit.max())
+    modulus = np.asarray(case.material.dynamic_modulus(n * case.omega)) / case.material.E_star
+    missed = 0.0
+    for across, force in forces.items():
+        if not force.any():
+            continue
+        rate = at_instants(1j * np.arange(1, force.size + 1) * force, limit.size)
+        parts = at_instants(force, limit.size) * sized / sized.max(), rate * change
+        slips, swings = (2 * np.abs(np.fft.rfft(part)[1 : n.size + 1]) / limit.size for part in parts)
+        Z = np.asarray(case.pull.dynamic_stiffness(n * case.omega, across=across))
+        K = modulus * np.clip(-(Z * modulus.conj()).real / np.abs(modulus) ** 2, softest, stiff)  # nearest to -Z
+        with np.errstate(divide="ignore", invalid="ignore"):
+            shared = np.where(K + Z == 0, np.inf, np.abs(Z * K / (K + Z)))
+        missed += float(shared @ (slips * (1 / softest - 1 / soft) + swings / n * (1 / soft - 1 / stiff)))
+    return missed
+
+
+def _secant(case: SlidingContact, swing: float, depth: float, least: float) -> float:
+    """Tangential stiffness [N/m] of a force that swings by this from a depth to where the limit is least [N]."""
+    shape = case.indenter
     left = (least - swing) / case.mu_0
     yields = depth - (static_depth(shape, case.material, left) if left > 0 else 0.0)
     more = case.mu_0 * float(shape.force(depth, case.material.E_star)) - (least - swing)

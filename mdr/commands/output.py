@@ -91,6 +91,7 @@ WAYS = {
     'give hold="load"': 'give hold = "load" in [oscillation]',
     "`within` may be widened": "--within low high searches another range",
     "cof_curve(case, [0]), or blocked_cof(case)": "`mdr velocity`, or `mdr curve case.toml --v-0 0`",
+    "blocked_cof(case)": "`mdr velocity`",
 }
 
 

@@ -162,10 +162,12 @@ def ends_of(case: mdr.SlidingContact) -> list[Told]:
     blocked, force, own = _asked(lambda: _at_rest(case), _span, "the same under its own pull, standing still")
     unloaded = "velocity at which it runs by itself, where no force holds it"
     free, velocity, alone = _asked(lambda: mdr.no_load_velocity(case), velocity_text, unloaded)
-    held = None if isinstance(blocked, float | str) else blocked
+    held, known = (None if isinstance(one, float | str) else one for one in (blocked, band))
+    row = () if case.is_shaken_at_pull else ("blocked", force, own)  # there it is the band
     return [
-        Told("holding_band", None if isinstance(band, str) else [band.low, band.high], "band", span, standing),
-        Told("blocked_cof", None if held else blocked, "blocked", force, own),
+        Told("holding_band", known and [known.low, known.high], "band", span, standing),
+        Told("holding_band_error", known and known.error),
+        Told("blocked_cof", None if held else blocked, *row),
         *([Told("blocked_band", [held.low, held.high])] if held else []),
         Told("no_load_velocity", free, "no load", velocity, alone),
     ]
@@ -189,10 +191,11 @@ def _at_rest(case: mdr.SlidingContact) -> float | HoldingBand:
 
 
 def _span(held: HoldingBand | float) -> str:
-    """A band of forces, or one force."""
+    """A band of forces, or one force; with its error where six digits show it."""
     if isinstance(held, float):
         return f"{held:.6g}"
-    return f"{held.high:.6g} (one value)" if held.is_one_number else f"{held.low:.6g} to {held.high:.6g}"
+    error = f" ± {held.error:.2g}" if held.error > 1e-6 * max(-held.low, held.high) > 0 else ""
+    return f"{held.high:.6g}{error} (one value)" if held.is_one_number else f"{held.low:.6g} to {held.high:.6g}{error}"
 
 
 def equation_of(case: mdr.SlidingContact) -> tuple[str, str]:

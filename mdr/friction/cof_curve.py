@@ -352,11 +352,12 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     if (held := held_forward(case)) is None:
         return _slow(case, friction, is_held=False)
     known = held.cof, held.error, True, 1.0, "", held.cof_y
-    return known if held.error <= CLOSE * case.mu_0 else min(_slow(case, friction, True), known, key=_error)
+    return known if held.error <= CLOSE * case.mu_0 else min(_slow(case, friction, True), known, key=_doubt)
 
 
-def _error(point: Point) -> float:
-    return point[1]
+def _doubt(point: Point) -> tuple[bool, float]:
+    """Whether it has not settled, and its error."""
+    return not point[2], point[1]
 
 
 def _slow(case: SlidingContact, friction: Friction, is_held: bool) -> Point:

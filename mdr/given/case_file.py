@@ -116,6 +116,8 @@ def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
     """What tables already parsed say; keys `beside` them are left alone. Raises CaseFileError with every fault."""
     said, axes = read_tables(content, beside), content.get("axes")
     above = {"mu_0": 1.0} if said.refused else said.above  # whether the parts fit each other shows whatever mu_0 is
+    if not said.faults and "support_acceleration" in said.held and "m_z" in content["oscillation"]:
+        above = {**above, "oscillation.m_z": said.parts["oscillation"].m_z}  # written, it is not to be chosen
     case, whole = (None, []) if said.faults else tried(contact_of, said.parts, {**above, **said.held})
     if case is None or said.refused:
         raise CaseFileError.of([*said.faults, *said.refused, *whole])

@@ -127,6 +127,11 @@ def _of_support(motion: Any, changes: Mapping[str, Any], settings: Mapping[str, 
     """
     a = SET["support_acceleration"].checked("support_acceleration", settings["support_acceleration"])
     load, m_z = changes.get("F_z0", motion.F_z0), changes.get("m_z", motion.m_z)
+    if changes.get("m_z") == 0:
+        raise ValueError(
+            "support_acceleration moves a mass, and m_z = 0 is none: leave m_z out for the mass whose weight is the "
+            "load, give it in kg, or give dF_z in N for a load that no mass brings about"
+        )
     if m_z == 0 or math.isclose(m_z * GRAVITY, motion.F_z0, rel_tol=SAME):
         m_z = load / GRAVITY
     return {"m_z": m_z, "dF_z": m_z * a}

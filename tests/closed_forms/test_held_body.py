@@ -122,6 +122,32 @@ def test_slow_pulls_come_to_the_end_of_the_band(shape, material, alpha, at, k):
     assert band.error < 2e-3 * MU_0
 
 
+STEEL, SOFT = mdr.Elastic(E=210e9, nu=0.3), mdr.Elastic(E=30e6, nu=0.5)
+
+
+@pytest.mark.parametrize(
+    ("R", "material", "load", "close"),
+    [
+        (5e-3, STEEL, mdr.LoadOscillation(6.0, 1.0, 2 * math.pi * 90), 1e-3),
+        (20e-3, SOFT, mdr.LoadOscillation(6.0, 1.0, 2 * math.pi * 90), 0.03),
+        (20e-3, SOFT, mdr.ConstantLoad(6.0), 0.01),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
+def test_the_bound_of_a_ball_does_not_count_harmonics_that_are_not_there(R, material, load, close):
+    """Depths under a load have as many harmonics as are solved for, and hardly a force in them."""
+    pull, shake = mdr.SpringPull(15e3, 0.1, 5.0), mdr.InPlaneOscillation(2 * math.pi * 90, du_x=20e-6, at="pull")
+    case = mdr.resolved(mdr.SlidingContact(mdr.Paraboloid(R=R), material, 0.3, load, pull, shake))
+    known, band = held_forward(case), band_of_pull(case)
+    faster, slower = (mdr.slide(case, v * case.pace, accuracy=1e-4) for v in (1e-4, 3e-5))
+    assert faster.settled
+    assert slower.settled
+    least, most = slower.cof - 2 * (faster.cof - slower.cof) - slower.cof_error, slower.cof + slower.cof_error
+    for cof, error in ((known.cof, known.error), (band.high, band.error)):
+        assert error < close * case.mu_0
+        assert least - error < cof < most + error
+
+
 def test_the_usual_valve_holds_what_its_spring_leaves_of_friction():
     """A stiff contact bears |k + i omega c| du_x; and so much of full friction is chi, whose end is 1."""
     steel, omega, k_x, c_x, du_x = mdr.Elastic(E=115e9, nu=0.3), 2 * np.pi * 120, 20e3, 5.0, 20e-6

@@ -603,16 +603,29 @@ def test_what_is_printed_of_rest_is_of_the_pull_that_the_case_has(tmp_path, caps
     told = json_of(capsys, ["velocity", "--json", str(path)])
     assert_allclose(told["holding_band"], [-0.0686, 0.0686], atol=5e-5)
     assert told["blocked_band"] == told["holding_band"]
+    assert 0 < told["holding_band_error"] < 1e-6
     assert told["no_load_velocity"] == 0
     assert told["chi"] == pytest.approx(0.5427, abs=1e-4)
     rows = {line.split()[0]: line for line in words_of(capsys, ["velocity", str(path)]).out.splitlines()}
     assert "under its own pull, whose far end is shaken" in rows["band"]
+    assert "±" not in rows["band"]
+    assert "blocked" not in rows  # the same
+    run = words_of(capsys, ["run", str(path), "--v-0", "0"])
+    assert "`mdr velocity` for all that it holds" in " ".join(run.out.split())
     assert "force that shakes the stuck contact, over full friction of 0.75 N" in rows["chi"]
     command = ["curve", str(path), "--points", "5", "--json", "-o", str(tmp_path / "out")]
     curve = json_of(capsys, command)
     assert curve["v_0"][2] == 0
     assert all(curve["settled"])
     assert curve["static_cof"] == curve["holding_band"][1] == curve["cof"][2]
+    path.write_text(
+        SPOOL.replace('shape = "FlatPunch"\na = "1 mm"', 'shape = "Paraboloid"\nR = "20 mm"').replace(
+            "115 GPa", "30 MPa"
+        )
+    )
+    rows = {line.split()[0]: line for line in words_of(capsys, ["velocity", str(path)]).out.splitlines()}
+    told = json_of(capsys, ["velocity", "--json", str(path)])
+    assert f" ± {told['holding_band_error']:.2g} " in rows["band"]
     path.write_text(SPOOL.replace('"pull"', '"tool"'))
     rows = {line.split()[0]: line for line in words_of(capsys, ["velocity", str(path)]).out.splitlines()}
     assert "under a rigid pull that stands still" in rows["band"]

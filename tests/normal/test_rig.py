@@ -113,6 +113,16 @@ def test_a_table_in_a_case_file_in_paths_and_in_studies():
         mdr.sweep(rig(depth_amplitude=2e-6), {"support_acceleration": [1.0]}, quantities=["static_cof"])
 
 
+def test_a_mass_of_zero_beside_an_acceleration_is_not_taken_for_another():
+    """What is written stands: a load that moves no mass has no inertia on a table."""
+    for zero in ("m_z = 0\n", 'm_z = "0 g"\n'):
+        with pytest.raises(
+            mdr.CaseFileError, match=r"moves a mass, and m_z = 0 is none: leave m_z out .*, or give dF_z"
+        ):
+            mdr.parse_case(ON_TABLE + zero)
+    assert mdr.parse_case(ON_TABLE + "m_z = 0.2\n").oscillation.m_z == 0.2
+
+
 def test_an_acceleration_in_a_file_is_asked_whose_it_is():
     for key in ("acceleration", "a_z"):
         with pytest.raises(mdr.CaseFileError, match=r"of what a mass stands on, give support_acceleration; of the ind"):
