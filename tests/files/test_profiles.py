@@ -25,7 +25,7 @@ def test_a_pitch_beside_places_that_say_another_is_told(tmp_path):
     path = tmp_path / "data.csv"
     path.write_text("x [um],z [um]\n" + "".join(f"{2 * i},{one:g}\n" for i, one in enumerate(HEIGHTS)))
     with pytest.warns(
-        mdr.PlausibilityWarning, match="its r goes over 80 µm, at this pitch over 40 µm: the pitch is tak"
+        mdr.PlausibilityWarning, match="its r goes over 80 µm, at this pitch over 40 µm: the pitch is taken"
     ):
         mdr.SampledProfile.read(path, pitch=1e-6, apex=20e-6)
     counted, read = (mdr.SampledProfile.read(path, apex=40e-6, **given) for given in ({"pitch": 2e-6}, {}))
