@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: processes share the cores, and threads would wait
+os.environ.setdefault("MDR_COMPILE", "first")  # what is compared to the last bit is machine code
 
 import matplotlib as mpl
 import numpy as np

@@ -205,7 +205,7 @@ def test_the_cache_of_compiled_code_sees_all_that_is_compiled_in(house):
     _, imports = house
     compiled = {one.module for one in imports if one.imported == "mdr.tools.jit"}
     assert set(reach(imports, sorted(compiled))) <= sources.compiled()
-    assert len(sources.compiled()) < 41  # an edit of any other file compiles nothing
+    assert len(sources.compiled()) < 44  # an edit of any other file compiles nothing
 
 
 def test_commands_do_not_need_the_page(house):

@@ -29,7 +29,7 @@ from mdr.tools.compiling import TALLY
 from mdr.tools.notation import shown
 
 COMPUTING = "computing …"
-COMPILING = "compiling, once on this machine: {} functions so far …"
+COMPILING = "compiling in another process, once on this machine: pictures take longer until it is done …"
 NOTHING = "nothing to show: the reason stands below"
 BEHIND = "a box holds what was refused, see there: the pictures are of the last valid case"
 FIRST_SIGHT = "first sight, its error is not bounded yet"
@@ -165,7 +165,7 @@ class Page:
         """Say what is waited for on a machine that is new to it."""
         if self.waits and TALLY.open:
             together()
-            self._tell(COMPILING.format(TALLY.done))
+            self._tell(COMPILING)
 
     # --- answers ---
 

@@ -5,9 +5,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from queue import Queue
+from threading import Thread
 
 from mdr.case.contact import SlidingContact
 from mdr.case.in_plane import InPlaneOscillation
@@ -21,12 +25,13 @@ from mdr.indenters.paraboloid import Paraboloid
 from mdr.march.result.slide import slide
 from mdr.materials import Elastic, KelvinVoigt, Material, Prony
 from mdr.normal.indentation import indent
+from mdr.tools.beside import cores
 from mdr.tools.compiling import unsaid
 from mdr.tools.fields import example_of
 from mdr.tools.progress import progress, silent
 
 MATERIALS: tuple[Material, ...] = (example_of(Prony), example_of(KelvinVoigt), example_of(Elastic))  # longest first
-BESIDE = "from mdr.friction.warm import compile_backwards; compile_backwards()"  #: what a second process does
+OTHER = f"import sys; sys.path[:] = {sys.path!r}; from mdr.friction.warm import main; main()"  #: what a process does
 BODY, MOTION, ALONG = example_of(SpringPull), example_of(NormalOscillation), example_of(InPlaneOscillation)
 ACROSS = replace(ALONG, du_y=ALONG.du_x)
 PULLS = (RigidPull(), BODY, replace(BODY, m=0.0))
@@ -34,27 +39,44 @@ CASE = SlidingContact(example_of(Paraboloid), MATERIALS[0], 0.5, MOTION)
 
 
 def compile_all() -> int:
-    """Number of kinds of run that are compiled from now on, in two processes where there are two cores; with progress.
+    """Number of kinds of run that are compiled from now on; with progress.
 
-    What has been compiled on this machine is read from the disk. So the two begin at either end of the list, and each
-    runs through what the other one has done.
+    By one process for each of two cores; they begin at either end of the list, so that they have little in common.
     """
-    todo = kinds_of_run()
-    beside = None if os.cpu_count() == 1 else subprocess.Popen([sys.executable, "-c", BESIDE])
-    with unsaid():
-        for run in progress(todo, "compiling, once on this machine", "kinds of run", alike=False):
-            with silent(lambda: None):
-                run()
-    if beside is not None:
-        beside.wait()  # it may be writing to the disk
-    return len(todo)
+    n = len(kinds_of_run())
+    todo = deque(range(n))
+    done: Queue[Exception | None] = Queue()
+    ends = (todo.popleft, todo.pop)[: cores()]
+    for take in ends:
+        Thread(target=_compile, args=(take, done.put), daemon=True).start()
+    for _ in progress(range(n), "compiling, once on this machine", "kinds of run", alike=False):
+        if (fault := done.get()) is not None:
+            raise fault
+    return n
 
 
-def compile_backwards() -> None:
-    """The same from the end of the list on, in silence."""
+def _compile(take: Callable[[], int], done: Callable[[Exception | None], None]) -> None:
+    """Let another process compile kinds of run, by their numbers, until there are no more."""
+    command, env = [sys.executable, "-c", OTHER], {**os.environ, "MDR_COMPILE": "first"}
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=env) as other:
+        assert other.stdin is not None
+        assert other.stdout is not None
+        with suppress(IndexError):
+            while True:
+                print(take(), file=other.stdin, flush=True)
+                if not other.stdout.readline():
+                    done(RuntimeError(f"a process that compiles ended with status {other.wait()}"))
+                    return
+                done(None)
+
+
+def main() -> None:
+    """Compile the kinds of run whose numbers are read, and say of each that it is done."""
+    kinds = kinds_of_run()
     with unsaid(), silent(lambda: None):
-        for run in reversed(kinds_of_run()):
-            run()
+        for line in sys.stdin:
+            kinds[int(line)]()
+            print(flush=True)
 
 
 def kinds_of_run(materials: tuple[Material, ...] = MATERIALS) -> list[Callable[[], object]]:

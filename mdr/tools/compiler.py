@@ -1,17 +1,30 @@
 """What the march uses of numba; without it stand-ins, with which the same functions go on in Python.
 
 Closed forms do not feel it. Runs are some hundred times slower, which `tell_if_missing` says once.
+
+MDR_COMPILE says when functions are compiled:
+
+- beside (or nothing): by another process, while they run as Python; by this one where no other can. See `tiers.py`.
+- first: before they are called.
+- never: as if numba were missing, but nothing is told.
 """
 
 from __future__ import annotations
 
+import os
 import warnings
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 LACK = ""  #: why numba cannot be imported
+MODES = ("beside", "first", "never")
+MODE = os.environ.get("MDR_COMPILE") or MODES[0]
+if MODE not in MODES:
+    raise ValueError(f"MDR_COMPILE must be one of {', '.join(MODES)}, got {MODE!r}")
 
 try:
+    if MODE == "never":
+        raise ImportError
     from numba import njit, types
     from numba.core import event
     from numba.core.caching import FunctionCache, IndexDataCacheFile
@@ -44,13 +57,14 @@ except (ImportError, OSError) as fault:  # or a library that it loads
                 return self
 
         types = SimpleNamespace(
-            **dict.fromkeys(("boolean", "float64", "int64", "FunctionType"), _Type()), WrapperAddressProtocol=object
+            **dict.fromkeys(("boolean", "float64", "int64", "FunctionType", "none"), _Type()),
+            WrapperAddressProtocol=object,
         )
         event = SimpleNamespace(Listener=object, register=lambda *_: None)
         FunctionCache = IndexDataCacheFile = Complex = NoneType = object
 
 __all__ = [
-    "LACK", "Complex", "FunctionCache", "IndexDataCacheFile", "NoneType", "event", "njit", "overload",
+    "LACK", "MODE", "Complex", "FunctionCache", "IndexDataCacheFile", "NoneType", "event", "njit", "overload",
     "register_jitable", "tell_if_missing", "types",
 ]  # fmt: skip
 

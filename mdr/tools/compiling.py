@@ -16,6 +16,7 @@ class Tally:
     open: int = 0  #: that are being compiled, one within another
     since: float = 0.0  #: instant [s] from which on they are
     took: float = 0.0  #: time [s] that those before took
+    in_python: float = 0.0  #: time [s] that functions took as Python, before they were compiled
     is_told: bool = True  #: whether it is said how many
 
     def begin(self) -> None:
@@ -24,10 +25,10 @@ class Tally:
             self.since = time.monotonic()
         self.open += 1
 
-    def end(self) -> None:
-        """It is compiled."""
+    def end(self, done: int = 1) -> None:
+        """It is compiled; or, where none is done, has run as Python."""
         self.open -= 1
-        self.done += 1
+        self.done += done
         if not self.open:
             self.took += time.monotonic() - self.since
 

@@ -7,9 +7,12 @@ What takes long is said on standard error: the first run of a kind on a machine 
 from __future__ import annotations
 
 import gc
+import os
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from mdr.tools import sources
@@ -17,6 +20,7 @@ from mdr.tools.compiler import FunctionCache, IndexDataCacheFile, event, njit
 from mdr.tools.compiling import TALLY
 from mdr.tools.linked import LINKED
 from mdr.tools.progress import PATIENCE, Ticker
+from mdr.tools.tiers import code_for
 
 Function = Callable[..., Any]
 
@@ -26,7 +30,14 @@ _STAMP = sources.hash_of(sources.compiled())
 
 
 class _Files(IndexDataCacheFile):
-    """What numba keeps of one function. What cannot be read, as after a type was renamed, counts as not there."""
+    """What numba keeps of one function. What cannot be read, as after a type was renamed, counts as not there; what
+    cannot be written, as on a full disk, is not kept.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Keep code, if it can be."""
+        with suppress(OSError):
+            super().save(key, data)
 
     def _load_index(self) -> Any:
         try:
@@ -53,6 +64,14 @@ class _Cache(FunctionCache):
         super().__init__(function)
         stamp = (self._impl.locator.get_source_stamp(), _STAMP)
         self._cache_file = _Files(self._cache_path, self._impl.filename_base, stamp)
+
+    def holds(self, signature: Any, context: Any) -> bool:
+        """Whether code for these types is on disk."""
+        try:
+            name = self._cache_file._load_index().get(self._index_key(signature, context.codegen()))
+        except OSError:
+            return False
+        return name is not None and os.path.exists(self._cache_file._data_path(name))
 
 
 def inner(**options: Any) -> Callable[[Function], Function]:
@@ -83,6 +102,7 @@ def compiled(**options: Any) -> Callable[[Function], Function]:
                 "compiled kernels cannot be kept, as no folder for them can be written to: every process compiles its "
                 "own, which takes 5 to 20 s of one core; let NUMBA_CACHE_DIR name a folder that can"
             )
+        ready._compile_for_args = partial(code_for, ready)
         return ready
 
     return wrap
@@ -96,7 +116,7 @@ class Compiling(event.Listener):
     """
 
     def __init__(self) -> None:
-        self.line = Ticker("compiling, once on this machine, the 30 to 80 functions of this kind of run")
+        self.line = Ticker("compiling, once on this machine for each kind of run, functions")
         self.searched = False
 
     def on_start(self, event: Any) -> None:

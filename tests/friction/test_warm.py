@@ -37,10 +37,16 @@ def test_after_the_kinds_of_run_a_run_compiles_nothing(material):
     assert before["kernels"] >= len(warm.PULLS)
 
 
-def test_the_command_says_how_many_kinds_and_compiles_them_in_order(monkeypatch, capsys):
-    done = []
-    monkeypatch.setattr(warm, "kinds_of_run", lambda *_: [lambda i=i: done.append(i) for i in range(5)])
-    monkeypatch.setattr(warm, "BESIDE", "")  # a process that does nothing
+def test_the_command_says_how_many_kinds_and_each_is_compiled_once(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(warm, "kinds_of_run", lambda *_: [None] * 5)
+    kept = f"import pathlib, sys\nfor n in sys.stdin:\n    (pathlib.Path({str(tmp_path)!r}) / n.strip()).touch(False)"
+    monkeypatch.setattr(warm, "OTHER", kept + "\n    print(flush=True)")
     assert main(["warm"]) == 0
-    assert done == [0, 1, 2, 3, 4]
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["0", "1", "2", "3", "4"]
     assert capsys.readouterr().out.startswith("5 kinds of run")
+
+
+def test_where_compiling_fails_it_is_said(monkeypatch):
+    monkeypatch.setattr(warm, "OTHER", "raise SystemExit(7)")
+    with pytest.raises(RuntimeError, match="ended with status 7"):
+        warm.compile_all()

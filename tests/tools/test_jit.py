@@ -147,7 +147,7 @@ def test_a_long_compilation_says_every_ten_seconds_how_much_is_done(
     assert TALLY.open == 0
     lines = capsys.readouterr().err.splitlines()
     assert [int(line.split(": ")[1].split()[0]) for line in lines] == said
-    assert all(line.startswith("compiling, once on this machine,") for line in lines)
+    assert all(line.startswith("compiling, once on this machine") for line in lines)
 
 
 def test_what_is_compiled_is_counted_and_cycles_are_searched_for_again_at_its_end():

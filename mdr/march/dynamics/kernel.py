@@ -22,8 +22,10 @@ from mdr.spring.law import Arms, Law, Modes
 from mdr.spring.path import FAST
 from mdr.spring.times import new_tools
 from mdr.tools.arrays import Array
+from mdr.tools.beside import Code
 from mdr.tools.compiler import NoneType, overload, register_jitable, tell_if_missing, types
 from mdr.tools.jit import compiled
+from mdr.tools.tiers import is_due
 
 _ROW, _ROWS = types.float64[::1], types.float64[:, ::1]
 #: block, velocity of the pull, state and compressions, updated, number of steps, flat trace; whether all was solved
@@ -53,11 +55,19 @@ class Kind(NamedTuple):
 class Kernel(types.WrapperAddressProtocol):
     """The march of contacts of a kind; compiled code knows it by its address."""
 
-    _numba_type_ = types.FunctionType(SIGNATURE)
+    numba_type = types.FunctionType(SIGNATURE)
 
     def __init__(self, march: Callable[..., bool], kind: Kind | None = None) -> None:
         self.march: Any = march
         self.kind = kind
+        self.code = Code(march, SIGNATURE.args)  #: that compiled callers need
+        self._is_due = False
+
+    @property
+    def _numba_type_(self) -> Any:
+        """As compiled functions see it: one that they can call; nothing as long as it runs as Python."""
+        self._is_due = self._is_due or is_due([self.code])
+        return self.numba_type if self._is_due else types.none
 
     def __reduce__(self) -> Any:
         """By its kind, as an address is that of a process."""
@@ -172,6 +182,13 @@ def trace_of(flat, n_steps, plane):
     rate, at = taken(numbers, at, n_steps)
     parts, at = taken(numbers, at, 6 * n_steps)
     return Trace(area, moment, y, rate, parts.reshape((n_steps, 2, 3)))
+
+
+def __getattr__(name: str) -> Any:
+    """The compiled function of a kernel by its name."""
+    if not name.startswith("kernel_"):
+        raise AttributeError(name)
+    return kernel_of(Kind(*(True if one == "1" else None for one in name.removeprefix("kernel_")))).march
 
 
 @lru_cache
