@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -27,7 +28,9 @@ from mdr.tools.compiling import TALLY
 from mdr.tools.notation import shown
 from mdr.tools.progress import silent, time_limit
 
-RUN = (96, 256)  #: springs and steps of the run, whose picture they are; half as many of the curve without a bound
+#: springs and steps of the run, whose picture they are: few at first, which are there at once even uncompiled, then
+#: many; half as many of the curve without a bound
+GRIDS = ((32, 64), (96, 256))
 WAITS = "…"  #: for a number that is being computed
 
 
@@ -87,8 +90,11 @@ def pictures_of(state: State, watch: Callable[[], None] = lambda: None) -> Itera
     """Pictures of a state, each better than the one before. `watch` may end the work by raising an error."""
     picture = at_once(state)
     yield picture
-    curve = [_first_sight, _bounded] if picture.curve is None else []
-    for better in (_run, *curve, *([_held] if state.case.is_shaken else [])):
+    steps: list[Callable[[Picture], Picture]] = []
+    for grid in GRIDS:
+        steps += [partial(one, grid) for one in ([_run] if picture.curve else [_run, _first_sight])]
+    steps += [_bounded] if picture.curve is None else []
+    for better in (*steps, *([_held] if state.case.is_shaken else [])):
         with silent(watch):
             picture = _in_time(better, picture)
         yield picture
@@ -122,17 +128,18 @@ def at_once(state: State) -> Picture:
     return replace(picture, cof=rigid.cof, curve=rigid) if case.pull.is_rigid else replace(picture, rigid=rigid.cof)
 
 
-def _run(picture: Picture) -> Picture:
+def _run(grid: tuple[int, int], picture: Picture) -> Picture:
     """With a run at v_0."""
-    springs, steps = RUN
+    springs, steps = grid
     case, v_0 = picture.state.case, picture.state.v_0
     run = slide(case, v_0, n_springs=springs, steps_per_period=steps, record=1, accuracy=LEAST_ACCURATE)
     return replace(picture, run=run, load=run.mean_F_z)
 
 
-def _first_sight(picture: Picture) -> Picture:
+def _first_sight(grid: tuple[int, int], picture: Picture) -> Picture:
     """With a curve, whose error is not known; at v_0 it is that of the run."""
-    cof = friction_without_bound(picture.state.case, picture.v_0, RUN[0] // 2, RUN[1] // 2)
+    springs, steps = grid
+    cof = friction_without_bound(picture.state.case, picture.v_0, springs // 2, steps // 2)
     if picture.run is not None:
         cof[picture.v_0 == picture.state.v_0] = picture.run.cof
     return replace(picture, cof=cof)
