@@ -29,7 +29,7 @@ from mdr.tools.compiling import TALLY
 from mdr.tools.notation import shown
 
 COMPUTING = "computing …"
-COMPILING = "compiling in another process, once on this machine: pictures take longer until it is done …"
+COMPILING = "compiling, once on this machine: pictures take longer until it is done …"
 NOTHING = "nothing to show: the reason stands below"
 BEHIND = "a box holds what was refused, see there: the pictures are of the last valid case"
 FIRST_SIGHT = "first sight, its error is not bounded yet"

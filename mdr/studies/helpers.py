@@ -20,9 +20,11 @@ from typing import IO, Any
 
 from mdr.studies.points import Points, compute
 from mdr.studies.work import Work
+from mdr.tools.compiler import MODE
 
 CUT_OFF = (EOFError, pickle.UnpicklingError)  #: where a pipe ends before a pickle, or within
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+COMPILES = "never" if MODE == "never" else "first"  #: as a helper has many points to compute, and takes its core
 KNOWN = {"mdr", "numpy", "builtins"}  #: packages that are the same in every process
 
 
@@ -36,7 +38,7 @@ class Helper:
     def __init__(self, work: Work, ended: Event) -> None:
         self.ended = ended
         script = f"import sys; sys.path[:] = {sys.path!r}; from mdr.studies import helpers; helpers.main()"
-        command, env = [sys.executable, "-c", script], {**os.environ, **ONE_THREAD}
+        command, env = [sys.executable, "-c", script], {**os.environ, **ONE_THREAD, "MDR_COMPILE": COMPILES}
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env)
         Thread(target=self._end_with, daemon=True).start()
         self.ready = self._ask(work) is True

@@ -1,10 +1,12 @@
 """Another process, of low priority, that compiles what this one asks for, into the cache on disk.
 
 It reads pickles of what is asked from its standard input and has no other tie to this process: no terminal, no pipe
-out. It ends some seconds after its input has ended, as that does where this process is gone, and at once where what it
-made is not found on disk. It stays in the process group of this one, and is ended with it. Of all such processes of a
-user one compiles at a time: the others wait for its lock, which the system takes off one that was killed, and then find
-on disk what it has done. Without `fcntl`, on Windows, there is no lock: two programs that start at once compile twice.
+out. LINGER seconds after its input has ended, as that does where this process is gone, it ends with the function that
+it is at, as else short programs on a busy machine would never find one; and at once where what it made is not found on
+disk. It stays in the process group of this one, and is ended with it. Of all such processes of a user one compiles at
+a time: the others wait for its lock, which the system takes off one that was killed, and then find on disk what it has
+done; for one that was stopped they do not wait for ever. Without `fcntl`, on Windows, there is no lock: two programs
+that start at once compile twice.
 """
 
 # mypy: disallow-untyped-calls=false
@@ -25,8 +27,10 @@ from threading import Lock, Thread
 from typing import Any, NamedTuple
 
 from mdr.tools.compiling import TALLY
+from mdr.tools.progress import tell
 
 LINGER = 30.0  #: s that it goes on after nobody waits for it, so that the next program finds more
+PATIENT = 60.0  #: s that it waits for the lock, as who holds it may have been stopped
 NICE = 5  #: which leaves it a third of the share of another process, where cores are busy
 TOLD = "compiling in another process, once on this machine for each kind of run; until it is done, runs take longer"
 
@@ -41,9 +45,13 @@ class Code(NamedTuple):
         """Whether it is in memory, or on disk."""
         return self.types in self.function.overloads or self.is_kept()
 
+    def can_be_kept(self) -> bool:
+        """Whether there is a folder for it."""
+        return hasattr(self.function._cache, "holds")
+
     def is_kept(self) -> bool:
         """Whether it is on disk."""
-        return bool(self.function._cache.holds(self.types, self.function.targetctx))
+        return self.can_be_kept() and bool(self.function._cache.holds(self.types, self.function.targetctx))
 
     def __reduce__(self) -> Any:
         """By the name of the function in its module."""
@@ -69,8 +77,8 @@ class Beside:
             self._ask(codes)
 
     def _ask(self, codes: Iterable[Code]) -> None:
-        new = [code for code in codes if code not in self.asked]
-        if not new or cores() < 2:
+        new = [code for code in codes if code not in self.asked and code.can_be_kept()]
+        if not new or cores() < 2 or not sys.executable:
             return
         if self.process is None:
             script = f"import sys; sys.path[:] = {sys.path!r}; from mdr.tools import beside; beside.main()"
@@ -79,7 +87,7 @@ class Beside:
             with suppress(OSError):
                 self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=none, stderr=none, env=env)
             if TALLY.is_told and self.process is not None:
-                print(TOLD, file=sys.stderr, flush=True)
+                tell(TOLD)
         if self.process is not None and self.process.stdin is not None:
             with suppress(OSError):  # it has ended
                 self.process.stdin.write(b"".join(map(pickle.dumps, new)))
@@ -125,7 +133,7 @@ def main() -> None:
 
 def _read(asked: Queue[Code | None], ended: list[float]) -> None:
     """Read what is asked for, until nobody asks."""
-    with suppress(EOFError, OSError, pickle.UnpicklingError):
+    with suppress(Exception):  # its end, or what cannot be found by its name
         while True:
             asked.put(pickle.load(sys.stdin.buffer))
     ended.append(time.monotonic())
@@ -141,5 +149,10 @@ def _alone() -> Iterator[None]:
         yield
         return
     with open(Path(tempfile.gettempdir()) / f"mdr-compiles-{os.getuid()}.lock", "w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
+        gives_up = time.monotonic() + PATIENT
+        while time.monotonic() < gives_up:
+            with suppress(BlockingIOError):
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            time.sleep(0.1)
         yield

@@ -1,18 +1,19 @@
 """Compilation by numba. The compiled code is kept on disk for the next process, wherever a folder can be written.
 
-What takes long is said on standard error: the first run of a kind on a machine waits for it, 5 to 20 s on one core.
+What takes long in this process is said on standard error. Most often another one compiles, see `tiers.py`.
 """
 
 # mypy: disallow-untyped-calls=false
 from __future__ import annotations
 
 import gc
-import os
+import pickle
 import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
+from hashlib import sha256
 from typing import Any
 
 from mdr.tools import sources
@@ -30,28 +31,35 @@ _STAMP = sources.hash_of(sources.compiled())
 
 
 class _Files(IndexDataCacheFile):
-    """What numba keeps of one function. What cannot be read, as after a type was renamed, counts as not there; what
-    cannot be written, as on a full disk, is not kept.
+    """What numba keeps of one function: a file for each set of types, which begins with what it is of.
+
+    numba itself names files in an index: one of older sources, or of other types, answers where two processes write at
+    once, or a disk is full. What cannot be read, as after a type was renamed, counts as not there; what cannot be
+    written is not kept.
     """
 
     def save(self, key: Any, data: Any) -> None:
         """Keep code, if it can be."""
-        with suppress(OSError):
-            super().save(key, data)
+        with suppress(OSError), self._open_for_write(self._path(key)) as file:
+            file.write(self._dump(self._of(key)) + self._dump(data))
 
-    def _load_index(self) -> Any:
-        try:
-            return super()._load_index()
-        except OSError:
-            raise
-        except Exception:  # unpickling may raise any
-            return {}
+    def load(self, key: Any) -> Any:
+        """Code that is kept, or None."""
+        with suppress(Exception), open(self._path(key), "rb") as file:  # unpickling may raise any
+            return pickle.load(file) if pickle.load(file) == self._of(key) else None
 
-    def _load_data(self, name: str) -> Any:
-        try:
-            return super()._load_data(name)
-        except Exception as fault:
-            raise FileNotFoundError(name) from fault
+    def holds(self, key: Any) -> bool:
+        """Whether code is kept."""
+        with suppress(Exception), open(self._path(key), "rb") as file:
+            return bool(pickle.load(file) == self._of(key))
+        return False
+
+    def _of(self, key: Any) -> Any:
+        return self._version, self._source_stamp, key
+
+    def _path(self, key: Any) -> str:
+        number = int(sha256(repr(key).encode()).hexdigest()[:12], 16)
+        return str(self._data_path(self._data_name(number)))
 
 
 class _Cache(FunctionCache):
@@ -60,6 +68,8 @@ class _Cache(FunctionCache):
     numba by itself looks at the file of the function alone, and not at those of the functions that it calls.
     """
 
+    _cache_file: _Files
+
     def __init__(self, function: Function) -> None:
         super().__init__(function)
         stamp = (self._impl.locator.get_source_stamp(), _STAMP)
@@ -67,11 +77,7 @@ class _Cache(FunctionCache):
 
     def holds(self, signature: Any, context: Any) -> bool:
         """Whether code for these types is on disk."""
-        try:
-            name = self._cache_file._load_index().get(self._index_key(signature, context.codegen()))
-        except OSError:
-            return False
-        return name is not None and os.path.exists(self._cache_file._data_path(name))
+        return self._cache_file.holds(self._index_key(signature, context.codegen()))
 
 
 def inner(**options: Any) -> Callable[[Function], Function]:
@@ -116,7 +122,7 @@ class Compiling(event.Listener):
     """
 
     def __init__(self) -> None:
-        self.line = Ticker("compiling, once on this machine for each kind of run, functions")
+        self.line = Ticker("compiling, once on this machine for each kind of run, functions", clock=time.monotonic)
         self.searched = False
 
     def on_start(self, event: Any) -> None:

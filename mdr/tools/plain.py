@@ -34,6 +34,7 @@ class _Open(threading.local):
 
 
 _open = _Open()
+_making = threading.Lock()  # of twins, which find one another before they are whole
 
 
 def called(function: FunctionType, args: tuple[Any, ...], may_leave: Callable[[], bool]) -> Any:
@@ -41,11 +42,13 @@ def called(function: FunctionType, args: tuple[Any, ...], may_leave: Callable[[]
 
     Of calls within one another the outermost is left that may be.
     """
+    with _making:
+        twin = twin_of(function)
     kept, left = _copies(args), Left()
     _open.calls.append((left, may_leave))
     try:
         with np.errstate(all="ignore"):  # as in machine code
-            return twin_of(function)(*args)
+            return twin(*args)
     except Left as one:
         if one is left:
             _put_back(args, kept)

@@ -6,9 +6,8 @@ On a terminal a bar; anywhere else plain lines. Both tell how much is done, and 
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from threading import Event
 from typing import TypeVar
@@ -93,14 +92,32 @@ def time_is_over() -> bool:
     return TALLY.clock > _deadline.get()
 
 
-class Ticker:
-    """Progress line for loops of any or unknown length, at most one every ten seconds; starts at `done` parts."""
+def tell(line: str) -> None:
+    """Write a line on standard error, where there is one that somebody reads."""
+    with suppress(OSError, ValueError):
+        if sys.stderr is not None:
+            print(line, file=sys.stderr, flush=True)
 
-    def __init__(self, what: str, total: int | None = None, parts: str = "", done: int = 0, alike: bool = True) -> None:
-        self.what, self.total, self.parts, self.alike = what, total, parts, alike
+
+class Ticker:
+    """Progress line for loops of any or unknown length, at most one every ten seconds; starts at `done` parts.
+
+    clock: time [s] by which it goes, that which stands still while something is compiled, as this is once, and is told.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        total: int | None = None,
+        parts: str = "",
+        done: int = 0,
+        alike: bool = True,
+        clock: Callable[[], float] = lambda: TALLY.clock,
+    ) -> None:
+        self.what, self.total, self.parts, self.alike, self.clock = what, total, parts, alike, clock
         self.done, self.before, self.watch = done, done, _watch.get()
-        now = time.monotonic()
-        self.start, self.next = now - TALLY.took, now + PATIENCE  # what is compiled once tells nothing of the rest
+        self.start = clock()
+        self.next = self.start + PATIENCE
 
     def tick(self, parts: int = 1) -> None:
         """One more part is done, or several."""
@@ -108,10 +125,10 @@ class Ticker:
         if self.watch is not None:
             self.watch()
             return
-        now = time.monotonic()
-        if now > self.next and self.done != self.total:
+        now = self.clock()
+        if now > self.next and (self.total is None or self.done < self.total):
             self.next = now + 10.0  # s, between plain lines
-            print(f"{self.what}: {self.done}{self._rest(now)}", file=sys.stderr, flush=True)
+            tell(f"{self.what}: {self.done}{self._rest(now)}")
 
     def _rest(self, now: float) -> str:
         parts = f" {self.parts}" if self.parts else ""
@@ -119,7 +136,7 @@ class Ticker:
             return f"{parts} so far"
         if not self.alike:
             return f" of {self.total}{parts}"
-        left = (now - TALLY.took - self.start) / (self.done - self.before) * (self.total - self.done)
+        left = (now - self.start) / (self.done - self.before) * (self.total - self.done)
         return f" of {self.total}{parts}, about {in_words(left)} left"
 
 

@@ -150,7 +150,7 @@ def test_a_stop_answers_the_best_so_far(monkeypatch, capfd):
         return friction_without_bound(*given)
 
     monkeypatch.setattr("mdr.friction.fit.friction_without_bound", interrupted)
-    monkeypatch.setattr("mdr.tools.progress.time", SimpleNamespace(monotonic=count(0.0, 20.0).__next__))
+    monkeypatch.setattr("mdr.tools.compiling.time", SimpleNamespace(monotonic=count(0.0, 20.0).__next__))
     data = measured(0.01)
     found = mdr.fit(START, data, ["mu_0", "tau"])
     assert found.stopped == "an interrupt"

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from contextlib import nullcontext
+from functools import partial
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -55,12 +56,12 @@ print(answer(HERE), *(sum(one.values()) for one in (answer.stats.cache_hits, ans
 }
 
 
-def answer_of(folder):
+def answer_of(folder, **options):
     """Answer, functions found on disk, functions compiled."""
     environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
     environment.pop("NUMBA_CACHE_DIR", None)
     command = [sys.executable, "-c", "import mdr.first"]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=True)
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=True, **options)
     return done.stdout.strip()
 
 
@@ -85,11 +86,25 @@ def test_an_edit_of_any_compiled_file_and_a_broken_one_on_disk_compile_anew(tmp_
         path = package / f"{file}.py"
         path.write_text(path.read_text().replace(old, new))
         assert answer_of(tmp_path) == said, (file, new)
-    for ending in ("nbi", "nbc"):
-        for path in (package / "__pycache__").glob(f"*.{ending}"):
-            path.write_bytes(path.read_bytes()[:-9])
-        assert answer_of(tmp_path) == "32.0 0 1", ending
+    for size in (-9, 9):
+        for path in (package / "__pycache__").glob("*.nbc"):
+            path.write_bytes(path.read_bytes()[:size])
+        assert answer_of(tmp_path) == "32.0 0 1", size
     assert answer_of(tmp_path) == "32.0 1 0"
+
+
+@compiles
+def test_code_of_older_sources_never_answers_where_the_disk_is_full(tmp_path):
+    resource = pytest.importorskip("resource")
+    shutil.copytree(Path(jit.__file__).parent, tmp_path / "mdr" / "tools", ignore=shutil.ignore_patterns("*cache*"))
+    for name, text in SMALL.items():
+        (tmp_path / "mdr" / f"{name}.py").write_text(text)
+    assert answer_of(tmp_path) == "30.0 0 1"
+    path = tmp_path / "mdr" / "constants.py"
+    path.write_text(path.read_text().replace("2.0", "4.0"))
+    full = partial(resource.setrlimit, resource.RLIMIT_FSIZE, (2000, 2000))  # takes a short file, but no code
+    assert answer_of(tmp_path, preexec_fn=full) == "60.0 0 1"
+    assert answer_of(tmp_path) == "60.0 0 1"
 
 
 @compiles

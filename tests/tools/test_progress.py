@@ -1,7 +1,9 @@
 """Progress is silent for what is short, and says how far it got, and how long the rest takes, for what is long."""
 
 import re
+import sys
 import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -15,7 +17,7 @@ from mdr.tools.progress import Ticker, progress, silent, time_is_over, time_limi
 def clock(monkeypatch):
     """A clock that three seconds pass on whenever it is looked at."""
     seconds = iter(range(0, 1000, 3))
-    monkeypatch.setattr(module.time, "monotonic", lambda: float(next(seconds)))
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(seconds)))
 
 
 def test_short_work_is_silent(capsys):
@@ -51,7 +53,24 @@ def test_the_rest_takes_no_time_of_compiling(capsys, monkeypatch):
             now[0] += 60.0
             TALLY.end()
         now[0] += 1.0
-    assert capsys.readouterr().err.splitlines()[0] == "work: 1 of 12, about 11 s left"
+    assert capsys.readouterr().err.splitlines()[0] == "work: 3 of 12, about 9 s left"
+
+
+def test_more_than_was_foretold_is_silent(capsys, clock):
+    ticker = Ticker("slide", total=3)
+    ticker.tick(4)
+    assert capsys.readouterr().err == ""
+
+
+def test_where_nobody_reads_nothing_is_told(monkeypatch, capsys):
+    for stream in (None, SimpleNamespace(write=refused, flush=refused)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        module.tell("a line")
+    assert capsys.readouterr().out == ""
+
+
+def refused(*_):
+    raise BrokenPipeError
 
 
 def test_an_unknown_end(capsys, monkeypatch):

@@ -12,7 +12,7 @@ import numba
 import numpy as np
 import pytest
 
-from mdr.tools import plain, tiers
+from mdr.tools import beside, plain, tiers
 from mdr.tools.plain import Left, called, twin_of
 
 pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
@@ -127,12 +127,49 @@ def test_first_and_never(small, tmp_path):
         "beside.cores = lambda: 1\n",  # no core for another process
         "beside.sys.executable = '/nowhere'\n",
         "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))\n",  # a full disk
+        "total.py_func.__qualname__ = 'nowhere'\n",  # which the other process cannot find
     ],
 )
 def test_where_nobody_else_compiles_this_process_does_after_a_while(why, small, tmp_path):
     wait = "from mdr.tools import tiers; tiers.ALONE = 0.3\n"
     out, _ = said(small, tmp_path, wait + why + TOTAL.format(n=10**9))
     assert out == ["1000000000.0", "1.0", "1"]
+
+
+def test_where_nothing_can_be_kept_no_other_process_is_started(small, tmp_path):
+    script = "from numba.core.caching import NullCache; total._cache = NullCache()\n"  # as where no folder is writable
+    script += "from mdr.tools import tiers; tiers.ALONE = 0.3\n" + TOTAL.format(n=10**9)
+    script += "print(beside.BESIDE.process)\n"
+    out, _ = said(small, tmp_path, script)
+    assert out == ["1000000000.0", "1.0", "1", "None"]
+
+
+def test_for_one_that_was_stopped_nobody_waits_for_ever(monkeypatch, tmp_path):
+    fcntl = pytest.importorskip("fcntl")
+    monkeypatch.setattr(beside.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(beside, "PATIENT", 0.2)
+    with beside._alone():
+        (lock,) = tmp_path.iterdir()
+        with open(lock) as file, pytest.raises(BlockingIOError):
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        with beside._alone():
+            pass
+
+
+def test_threads_that_begin_together_find_whole_twins(small, tmp_path):
+    script = """
+from threading import Thread
+from mdr import parts
+class Slow:
+    @property
+    def py_func(self): time.sleep(0.3)
+parts.slow = Slow()
+threads = [Thread(target=lambda: print(total(Pair(np.zeros(1), 0.5), 3))) for _ in range(3)]
+for one in threads: one.start()
+for one in threads: one.join()
+"""
+    out, told = said(small, tmp_path, script)
+    assert out == ["3.0"] * 3, told
 
 
 def test_a_process_that_is_killed_leaves_no_lock_and_no_process(small, tmp_path):
