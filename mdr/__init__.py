@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mdr.indenters import *
 from mdr.materials import *
 from mdr.case.displacement import displacement_of
+from mdr.case.friction import *
 from mdr.case.motion import *
 from mdr.case.in_plane import *
 from mdr.case.pull import RigidPull, SpringPull
@@ -30,6 +31,7 @@ from mdr.friction.friction_data import FrictionData, read_friction_data
 
 from mdr import indenters, materials
 from mdr.case import waveforms
+from mdr.case import friction as _friction
 from mdr.case import in_plane as _in_plane
 from mdr.case import motion as _motion
 
@@ -107,8 +109,9 @@ __all__ = [
     "resolved", "rig", "slide", "slide_many", "slide_record", "static_cof", "static_depth", "static_load",
     "surface_fields", "sweep", "tangential_loop", "tolerance", "verdict", "waveforms", "write_case",
 ]  # fmt: skip
-__all__ += indenters.__all__  # shapes, materials and motions are listed where they stand
+__all__ += indenters.__all__  # shapes, materials, laws of friction and motions are listed where they stand
 __all__ += materials.__all__
+__all__ += _friction.__all__
 __all__ += _motion.__all__
 __all__ += _in_plane.__all__
 

@@ -11,20 +11,20 @@ asked of `mdr.resolved(case)`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import InitVar, dataclass, field, fields, is_dataclass, replace
+from inspect import signature
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.depth_cycle import Cycle, peak, stick_limit
-from mdr.case.in_plane import Shake, sign_of, whole_ratio
+from mdr.case.friction import Friction, law_of
+from mdr.case.in_plane import Shake, sign_of
 from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull
+from mdr.case.scales import Scales
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material, answers, refuse_other_materials
-from mdr.materials.operator import Rheology
-from mdr.tools.checks import instance, not_negative, positive
+from mdr.tools.checks import instance
 from mdr.tools.fields import Record, check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
@@ -33,16 +33,16 @@ from mdr.tools.summary import Row, Summarised, Summary, number
 KINDS: dict[str, type[Any]] = {
     "indenter": Indenter,
     "material": Material,
+    "friction": Friction,
     "oscillation": Motion,
     "pull": Pull,
     "shake": Shake,
 }
 OPTIONAL = ("shake",)  #: parts that may be None
-OF_FACE = ("mu_0", "tau_0")  #: numbers of the contact as a whole
 
 
 @dataclass(frozen=True)
-class SlidingContact(Record, Summarised):
+class SlidingContact(Scales, Record, Summarised):
     """An indenter that slides on a half-space while it is shaken, in the normal direction or in the plane.
 
     Examples
@@ -61,34 +61,28 @@ class SlidingContact(Record, Summarised):
 
     indenter: Indenter = field(metadata=facts("", "shape", rule=None))
     material: Material = field(metadata=facts("", "half-space", rule=None))
-    mu_0: float = field(
-        metadata=facts(
-            "-",
-            "local coefficient of friction",
-            not_negative,
-            label=r"local friction $\mu_0$",
-            note="coefficient of friction",
-        )
-    )
-    oscillation: Motion = field(metadata=facts("", "normal motion", rule=None))
+    mu_0: InitVar[float] = None
+    oscillation: Motion = field(default=None, metadata=facts("", "normal motion", rule=None))  # type: ignore[assignment]
     pull: Pull = field(default_factory=RigidPull, metadata=facts("", "what pulls in the plane", rule=None))
     shake: Shake | None = field(default=None, metadata=facts("", "shake in the plane, besides the pull", rule=None))
-    tau_0: float = field(
-        default=0.0,
-        metadata=facts("Pa", "shear strength of the face, beside mu_0", not_negative, label=r"shear strength $\tau_0$"),
-    )
+    tau_0: InitVar[float] = 0.0
+    friction: Friction = field(default=None, metadata=facts("", "law of friction", rule=None))  # type: ignore[assignment]
+    _law: InitVar[Friction | None] = None  # handed over by dataclasses.replace
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, mu_0: Any, tau_0: Any, _law: Friction | None) -> None:
+        law = law_of(self.friction, mu_0, tau_0, _law)
+        instance("friction", law, Friction)
+        law = law.simplest
+        for name, value in (("friction", law), ("_law", law), ("mu_0", law.mu_0), ("tau_0", law.tau_0)):
+            object.__setattr__(self, name, value)
         for name, kind in KINDS.items():
             if name not in OPTIONAL or getattr(self, name) is not None:
                 instance(name, getattr(self, name), kind)
         self._refuse_what_springs_do_not_know()
         check_fields(self)
-        if not self.tau_0:
-            positive("mu_0", self.mu_0, "coefficient of friction; it may be 0 where tau_0 is above")
-        elif not self.indenter.is_body:
+        if law.needs_area and not self.indenter.is_body:
             raise ValueError(
-                f"tau_0 = {self.tau_0:.6g} Pa acts on an area of contact, which {type(self.indenter).__name__} does "
+                f"tau_0 = {law.tau_0:.6g} Pa acts on an area of contact, which {type(self.indenter).__name__} does "
                 "not know: set tau_0 = 0"
             )
         if self.material.E_star == 0:
@@ -122,10 +116,7 @@ class SlidingContact(Record, Summarised):
 
     def _summary(self) -> Summary:
         parts = [(name, getattr(self, name)) for name in KINDS]
-        rows = [_told(name, part) for name, part in parts if part is not None]
-        rows.insert(2, ("mu_0", number(self.mu_0), "local coefficient of friction"))
-        if self.tau_0:
-            rows.insert(3, ("tau_0", number(self.tau_0, "Pa"), "shear strength of the face, beside mu_0"))
+        rows = [row for name, part in parts if part is not None for row in _told(name, part)]
         if not self.oscillation.knows_depth:
             return Summary("SlidingContact", [*rows, ("contact", "under a load", "mdr.resolved(case) finds its depth")])
         a = float(self.indenter.contact_radius(max(self.working_depth, 0.0)))
@@ -156,121 +147,6 @@ class SlidingContact(Record, Summarised):
             )
 
     @property
-    def repeats(self) -> tuple[int, int]:
-        """Periods of the oscillation, and of the shake, in the period of the case; 0 of what does not move."""
-        if self.shake is None or self.shake.is_still:
-            return 1, 0
-        return whole_ratio(self.oscillation.omega, self.shake.omega) if self.oscillation.omega else (0, 1)
-
-    @property
-    def omega(self) -> float:
-        """Angular frequency [rad/s] of the period after which oscillation and shake both repeat."""
-        if self.shake is None:
-            return self.oscillation.omega
-        n_z, n_x = self.repeats
-        return self.oscillation.omega / n_z if n_z else self.shake.omega / n_x
-
-    @property
-    def period(self) -> float:
-        """2 pi/omega [s]."""
-        return 2 * np.pi / self.omega
-
-    @property
-    def is_shaken(self) -> bool:
-        """Whether it moves in the plane besides the pull."""
-        return self.shake is not None and not self.shake.is_still
-
-    @property
-    def cycle(self) -> Cycle:
-        """The depth over one period."""
-        return self.oscillation.cycle.repeated(max(self.repeats[0], 1), self.omega)
-
-    @property
-    def shake_harmonics(self) -> NDArray[np.complex128]:
-        """X_n [m], shape (N,), of the shake x(t) = Re of sum X_n exp(i n omega t), n = 1 ... N; empty without one."""
-        return self._harmonics(across=False)
-
-    @property
-    def harmonics_across(self) -> NDArray[np.complex128]:
-        """Y_n [m], shape (N,), of the shake across the pull likewise; empty where nothing moves across."""
-        return self._harmonics(across=True)
-
-    def _harmonics(self, across: bool) -> NDArray[np.complex128]:
-        if self.shake is None or self.shake.is_still or (across and not self.shake.across.any()):
-            return np.zeros(0, dtype=complex)
-        n_x, given = self.repeats[1], self.shake.across if across else self.shake.along
-        out = np.zeros(n_x * given.size, dtype=complex)
-        out[n_x - 1 :: n_x] = given
-        return out
-
-    @property
-    def moves_across(self) -> bool:
-        """Whether it is shaken across the pull, so that friction turns."""
-        return self.harmonics_across.size > 0
-
-    @property
-    def is_alike_both_ways(self) -> bool:
-        """Whether a pull the other way is its mirror image: nothing shakes along the pull."""
-        return not self.shake_harmonics.any()
-
-    @property
-    def way(self) -> NDArray[np.complex128]:
-        """X_n [m] of the way that the shake takes the indenter, without friction; infinite on an undamped resonance.
-
-        Of a shaken pulling point it is what spring, damper and mass pass on: (k_x + i n omega c_x) H(n omega) X_n.
-        """
-        return self._passed_on(self.shake_harmonics, across=False)
-
-    @property
-    def way_across(self) -> NDArray[np.complex128]:
-        """Y_n [m] likewise, across the pull, where k_y and c_y pass on."""
-        return self._passed_on(self.harmonics_across, across=True)
-
-    def _passed_on(self, given: NDArray[np.complex128], across: bool) -> NDArray[np.complex128]:
-        if not given.size or not self.is_shaken_at_pull:
-            return given
-        _, c, k = self.pull.across if across else self.pull.coefficients
-        n_omega = self.omega * np.arange(1, given.size + 1)
-        H, out = np.asarray(self.pull.receptance(n_omega, across=across)), np.zeros_like(given)
-        passed = (given != 0) & np.isfinite(H)
-        out[passed] = (k + 1j * n_omega[passed] * c) * H[passed] * given[passed]
-        out[(given != 0) & ~np.isfinite(H)] = np.inf
-        return out
-
-    def borne(self, k_xc: float, *, across: bool = False) -> NDArray[np.complex128]:
-        """Harmonics of the force that the contact bears while it sticks, and the body with it.
-
-        Parameters
-        ----------
-        k_xc : float
-            Tangential stiffness of the contact [N/m] at long times.
-        across : bool
-            Across the pull.
-
-        Returns
-        -------
-        ndarray
-            F_n [N], shape (N,), of n = 1 ... N: K P_n/(K + Z), with K the dynamic stiffness of the contact, Z that of
-            mass, spring and damper, and P_n what these pass on to a contact that does not yield. Infinite where an
-            undamped body resonates on its contact.
-        """
-        given = self.harmonics_across if across else self.shake_harmonics
-        _, c, k = self.pull.across if across else self.pull.coefficients
-        n_omega = self.omega * np.arange(1, given.size + 1)
-        K = k_xc * np.asarray(self.material.dynamic_modulus(n_omega)) / self.material.E_star
-        if np.isinf(k):
-            return np.asarray(K * given)
-        Z = self.pull.dynamic_stiffness(n_omega, across=across)
-        passed = (k + 1j * n_omega * c if self.is_shaken_at_pull else Z) * given
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(passed == 0, 0.0, np.where(K + Z == 0, np.inf, K * passed / (K + Z)))
-
-    @property
-    def is_shaken_at_pull(self) -> bool:
-        """Whether the shake reaches the body through a spring."""
-        return self.shake is not None and self.shake.at == "pull" and not self.pull.is_rigid
-
-    @property
     def mirrored(self) -> SlidingContact:
         """The contact seen from the other side: what it does forward, this one does backward."""
         return self if self.shake is None else replace(self, shake=self.shake.mirrored)
@@ -295,214 +171,23 @@ class SlidingContact(Record, Summarised):
         """
         return self if sign_of(direction) == 1 else self.mirrored
 
-    @property
-    def rheology(self) -> Rheology:
-        """The operator of the material in units of the long-time modulus and of 1/omega, for periodic motions."""
-        return Rheology.periodic(self.material, self.omega)
 
-    @property
-    def u_z_max(self) -> float:
-        """Greatest depth [m]: u_z0 + du_z of a harmonic oscillation."""
-        cycle = self.cycle
-        return cycle.u_z0 + cycle.unit * cycle.greatest
-
-    @property
-    def working_depth(self) -> float:
-        """Depth [m] that stiffnesses belong to: the mean depth u_z0, or that at which the mean load rests."""
-        return self.oscillation.working_depth
-
-    @property
-    def contact_depth(self) -> float:
-        """Depth [m] at which there is a contact: the working depth, or the greatest of tapping with u_z0 <= 0."""
-        return self.working_depth if self.working_depth > 0 else self.u_z_max
-
-    @property
-    def k_zc(self) -> float:
-        """Normal contact stiffness 2 E* a(u_z0) [N/m]; zero for tapping with u_z0 <= 0."""
-        return float(self.indenter.stiffness(self.working_depth, self.material.E_star))
-
-    @property
-    def k_xc(self) -> float:
-        """Tangential contact stiffness 2 G* a(u_z0) [N/m]."""
-        return self.k_zc / self.material.mindlin_ratio
-
-    @property
-    def gamma_zc(self) -> float:
-        """Normal contact damping tau k_zc [N s/m] of the long-time branch."""
-        return self.material.tau * self.k_zc
-
-    @property
-    def gamma_xc(self) -> float:
-        """Tangential contact damping tau k_xc [N s/m], Eq. (11)."""
-        return self.material.tau * self.k_xc
-
-    def dynamic_stiffness(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """Complex normal stiffness of the contact K_z(omega) = 2 a(u_z0) E*(omega) [N/m].
-
-        Parameters
-        ----------
-        omega : array_like of float
-            Angular frequency [rad/s].
-
-        Returns
-        -------
-        ndarray
-            K_z [N/m] in the shape of omega.
-        """
-        return np.asarray(self.k_zc / self.material.E_star * np.asarray(self.material.dynamic_modulus(omega)))
-
-    @property
-    def alpha(self) -> float:
-        """Relative amplitude du_z/u_z0 [-]; infinite at u_z0 = 0 and negative for tapping from above the surface."""
-        cycle = self.cycle
-        return cycle.du_z / cycle.u_z0 if cycle.u_z0 else np.inf
-
-    @property
-    def T(self) -> float:
-        """omega tau [-] of the long-time branch, the loss tangent of a Kelvin material at the frequency omega, which is
-        the common one where depth and shake have two.
-        """
-        return self.rheology.T
-
-    @property
-    def unit_length(self) -> float:
-        """mu_0 kappa du_z + 2 tau_0 a(u_z_max)/G* [m]: change of the deflection at which pressed springs slip, and the
-        part of it that a shear strength holds; a unit of tangential lengths. At a constant depth u_z0 stands for du_z.
-        """
-        return self.mu_0 * self.material.mindlin_ratio * self.cycle.unit + self._strength(self.u_z_max)
-
-    def _strength(self, depth: float) -> float:
-        """2 tau_0 a/G* [m]: deflection of the spring in the middle that a shear strength holds; zero without one.
-
-        a is the contact radius at the depth, or at zero if that is above the surface.
-        """
-        a = float(self.indenter.contact_radius(max(depth, 0.0))) if self.tau_0 else 0.0
-        return 2 * self.tau_0 * a / self.material.G_star
-
-    @property
-    def unit_velocity(self) -> float:
-        """mu_0 kappa omega du_z [m/s], that of the stick limit of a pressed spring: Eq. (1), a unit of velocities. With
-        a shear strength it is omega times `unit_length`.
-
-        At a constant depth u_z0 stands for du_z; where depth and shake have two frequencies, omega is the common one.
-        """
-        if self.tau_0:
-            return self.unit_length * self.omega
-        return stick_limit(self.mu_0, self.cycle.unit, self.omega, self.material.mindlin_ratio)
-
-    @property
-    def chi(self) -> float:
-        """Amplitude of the shake over that at which every spring slips at rest [-]; infinite for u_z0 <= 0.
-
-        du_x/(mu_0 kappa u_z0), half the way of the tool over the deflection at which the middle spring slips. Of a
-        shaken pulling point half the way of the force that the contact bears while it sticks, over full friction.
-        """
-        return self._over_slip(across=False)
-
-    @property
-    def eta(self) -> float:
-        """The same across the pull [-]; du_y/(mu_0 kappa u_z0) of the tool."""
-        return self._over_slip(across=True)
-
-    def _over_slip(self, across: bool) -> float:
-        depth = self.working_depth
-        if not self.is_shaken_at_pull:
-            return _half_way(self._harmonics(across), self.reach(depth))
-        return _half_way(self.borne(self.k_xc, across=across), self.full_friction)
-
-    @property
-    def full_friction(self) -> float:
-        """Friction [N] of a slide without vibration at the mean depth; zero for tapping with u_z0 <= 0."""
-        depth = max(self.working_depth, 0.0)
-        strength = self.tau_0 * np.pi * float(self.indenter.contact_radius(depth)) ** 2 if self.tau_0 else 0.0
-        return self.mu_0 * float(self.indenter.force(depth, self.material.E_star)) + strength
-
-    def reach(self, depth: float) -> float:
-        """Deflection [m] at which the spring in the middle slips.
-
-        Parameters
-        ----------
-        depth : float
-            Depth u_z [m] of a contact at rest.
-
-        Returns
-        -------
-        float
-            mu_0 kappa u_z [m], and with a shear strength 2 tau_0 a/G* more.
-        """
-        return self.mu_0 * self.material.mindlin_ratio * depth + self._strength(depth)
-
-    @property
-    def fastest_across(self) -> float:
-        """Sum of the velocities [m/s] of the harmonics across the pull: of one harmonic the greatest velocity."""
-        return _fastest(self.omega, self.way_across)
-
-    @property
-    def pace(self) -> float:
-        """Sum of the velocities [m/s] that oscillation and shake bring about: a scale, no less than any of them."""
-        if not self.is_shaken:
-            return self.unit_velocity
-        fastest = _fastest(self.omega, self.way) + self.fastest_across
-        n_C = np.arange(1, self.cycle.cos.size + 1) * np.abs(self.cycle.harmonics)
-        return self.unit_velocity * float(np.sum(n_C)) + fastest
-
-    @property
-    def kept_gap(self) -> float:
-        """Gap, in du_z from the mean depth, of the shallowest spring that never leaves; -sqrt(1 + T²) in Eq. (5)."""
-        return self.cycle.kept_gap(self.rheology.response)
-
-    @property
-    def keeps_contact(self) -> bool:
-        """Whether the centre of the contact is never lost: Eq. (5), u_z0 > du_z sqrt(1 + T²), for a Kelvin material."""
-        cycle = self.cycle
-        return cycle.u_z0 > -cycle.unit * self.kept_gap
-
-    @property
-    def edge_moves(self) -> bool:
-        """Whether the radius of contact changes over the period, or contact is lost."""
-        depth = self.cycle.u_z0 + self.cycle.unit * self.kept_gap
-        least, greatest = self.indenter.contact_radius(np.array([max(depth, 0.0), self.u_z_max]))
-        return bool(least < greatest) or not self.keeps_contact
-
-    @property
-    def gap_tells_limit(self) -> bool:
-        """Whether friction bears as much on all springs of one gap, at every instant: one may stand for them. A shear
-        strength bears less the further out a spring stands.
-        """
-        return not self.tau_0
-
-    @property
-    def always_sticks(self) -> bool:
-        """Whether springs stick at any pull: those that the edge of contact reaches, of a face with a shear strength
-        and no dashpot.
-        """
-        return self.tau_0 > 0 and self.T == 0 and self.edge_moves
-
-    @property
-    def is_of_the_paper(self) -> bool:
-        """Whether depth is harmonic and material without arms: as in the paper, the normal force in closed form."""
-        prescribed = self.oscillation.knows_depth and self.oscillation.load is None
-        return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
+#: the argument of `dataclasses.replace` alone is none of its users
+SlidingContact.__signature__ = signature(SlidingContact).replace(  # type: ignore[attr-defined]
+    parameters=[one for one in signature(SlidingContact).parameters.values() if one.name != "_law"]
+)
 
 
-def _fastest(omega: float, way: NDArray[np.complex128]) -> float:
-    return float(np.sum(omega * np.arange(1, way.size + 1) * np.abs(way)))
-
-
-def _half_way(given: NDArray[np.complex128], reach: float) -> float:
-    if not given.any():
-        return 0.0
-    return 0.5 * (peak(given) + peak(-given)) / reach if reach > 0 else np.inf
-
-
-def _told(name: str, part: Any) -> Row:
-    """A part of a case in a row: its kind, and its numbers with their units."""
+def _told(name: str, part: Any) -> list[Row]:
+    """A part of a case in a row: its kind, and its numbers with their units; a law of friction by its own rows."""
+    if isinstance(part, Friction):
+        return part.told()
     part = getattr(part, "load", None) or part  # of a depth that was solved for, what it was solved from
     if not is_dataclass(part):
-        return name, type(part).__name__, short(repr(part))
+        return [(name, type(part).__name__, short(repr(part)))]
     given = [(one, getattr(part, one.name)) for one in fields(part) if one.init]
     values = [_written(one.name, value, facts_of(one).unit) for one, value in given if value not in (None, ())]
-    return name, type(part).__name__, ", ".join(values)
+    return [(name, type(part).__name__, ", ".join(values))]
 
 
 def _written(name: str, value: Any, unit: str) -> str:

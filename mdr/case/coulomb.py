@@ -21,11 +21,6 @@ def require_coulomb(case: SlidingContact, what: str) -> None:
         )
 
 
-def greatest(full: float, mu_0: float) -> str:
-    """The COF of full slip, named."""
-    return f"mu_0 = {mu_0:.6g}" if full == mu_0 else f"{full:.6g} in full slip"
-
-
 def of_coulomb(function: Callable[P, T]) -> Callable[P, T]:
     """Decorator: the same for a function whose first argument is the case."""
 

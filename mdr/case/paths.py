@@ -1,8 +1,9 @@
 """Paths: what can be set in a case, and what it is called and measured in.
 
-A path is a part ("indenter"), a field ("mu_0", "material.tau"), or one of `SET`: a number that sets fields, a
-dimensionless group or what a rig is set to. The way there and back, for which a contact may have to be solved, is in
-`mdr.given.vary`. A case file may give what a rig is set to in the place of the field:
+A path is a part ("indenter"), a field ("material.tau"; of the law of friction "mu_0", or "friction.mu_0"), or one of
+`SET`: a number that sets fields, a dimensionless group or what a rig is set to. The way there and back, for which a
+contact may have to be solved, is in `mdr.given.vary`. A case file may give what a rig is set to in the place of the
+field:
 
     [indenter]     theta_deg = 1.5     for theta [rad]
     [material]     tan_delta = 0.2     for tau [s] of a KelvinVoigt: the loss tangent at the frequency of the case
@@ -21,6 +22,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any, NamedTuple
 
 from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.friction import Friction
 from mdr.materials import KelvinVoigt
 from mdr.tools.checks import not_negative, positive
 from mdr.tools.fields import NOTHING, Facts, Rule, facts, facts_of, fields_of
@@ -96,7 +98,33 @@ VELOCITIES = {
 
 def fields_set(path: str) -> tuple[str, ...]:
     """The fields, of which one or all are set by a path."""
-    return SET[path].fields if path in (*RIG, *GROUPS) else (path,)
+    return SET[path].fields if path in (*RIG, *GROUPS) else (one_name(path),)
+
+
+def one_name(path: str) -> str:
+    """The path without the slot of friction, whose fields have two paths."""
+    return path.removeprefix("friction.")
+
+
+def fields_at(slot: str, part: Any) -> list[str]:
+    """Paths of the fields that can be set in a part of a case; those of a law of friction stand without their slot."""
+    return [field if slot == "friction" else f"{slot}.{field}" for field in set_in(part)]
+
+
+def set_in(part: Any) -> tuple[str, ...]:
+    """Names of the fields that can be set in a part of a case."""
+    return part.numbers if isinstance(part, Friction) else fields_of(part)
+
+
+def paths_of(case: SlidingContact) -> list[str]:
+    """Paths of all fields that can be set in a case, one by one."""
+    return [path for slot in KINDS for path in fields_at(slot, getattr(case, slot))]
+
+
+def slot_of(path: str) -> tuple[str, str]:
+    """The part of a case and the field that a path of a field says; the field is empty of a part."""
+    slot, _, field = path.partition(".")
+    return (slot, field) if field or slot in KINDS else ("friction", slot)
 
 
 def settings_of(part: str) -> dict[str, SetPath]:
@@ -121,8 +149,10 @@ def facts_at(path: str) -> Facts:
         return SET[path].facts
     if path in VELOCITIES:
         return VELOCITIES[path]
-    slot, _, name = path.rpartition(".")
-    records = set(_kinds_of(KINDS[slot])) if slot in KINDS else {SlidingContact} if not slot else set()
+    slot, name = slot_of(path)
+    records = set(_kinds_of(KINDS[slot])) if slot in KINDS else set()
+    if not name:
+        records, name = {SlidingContact}, slot
     named = sorted((one for one in records if is_dataclass(one)), key=lambda one: one.__name__)
     known = [facts_of(field) for record in named for field in fields(record) if field.name == name]
     found = Counter(one._replace(example=None) for one in known if one.meaning)

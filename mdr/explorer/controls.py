@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, OF_FACE, as_given
+from mdr.case.contact import KINDS, as_given
 from mdr.case.in_plane import MOST, PLACES
-from mdr.case.paths import GROUPS, facts_at, fields_set
+from mdr.case.paths import GROUPS, facts_at, fields_at, fields_set, slot_of
 from mdr.closed_forms.critical_velocity import UP_TO, velocity_scale
 from mdr.explorer.state import DECADE, State, group_values, scales_of
 from mdr.files.examples import PARTS
@@ -58,15 +58,14 @@ def controls_of(state: State) -> dict[str, list[Control]]:
     """The controls of a state, under the part that they belong to; "" are those of the contact as a whole."""
     case = as_given(state.case)
     groups = group_values(case) if state.in_groups else {}
-    of_face = [control_of(state, path) for path in OF_FACE if path == "mu_0" or case.indenter.is_body]
-    found = {"": [*of_face, control_of(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
+    found = {"": [control_of(state, "v_0/v_c" if state.in_groups and state.v_c else "v_0")]}
     for slot in KINDS:
         part = getattr(case, slot)
-        own = {f"{slot}.{one.name}": one for one in fields(part) if one.init} if is_dataclass(part) else {}
+        own = {one.name: facts_of(one) for one in fields(part) if one.name not in HIDDEN} if is_dataclass(part) else {}
         set_by = {fields_set(path)[0]: path for path in groups}
         found[slot] = [control_of(state, path) for at, path in set_by.items() if at.startswith(f"{slot}.")]
-        found[slot] += [control_of(state, path, facts_of(one)) for path, one in own.items()
-                        if path not in set_by and one.name not in HIDDEN]  # fmt: skip
+        fields_of_it = [path for path in fields_at(slot, part) if path not in set_by and slot_of(path)[1] in own]
+        found[slot] += [control_of(state, path, own[slot_of(path)[1]]) for path in fields_of_it]
     return found
 
 

@@ -3,7 +3,7 @@
 Tables and keys carry the names of the records and their fields, in SI. A key left out takes the record's
 default, and no [pull] is a rigid pull:
 
-    mu_0 = 0.5
+    mu_0 = 0.5                                # friction; beside it tau_0, a shear strength [Pa]
     [indenter]
     shape = "Paraboloid"                      # any record of mdr.indenters
     R = 5e-3
@@ -27,6 +27,7 @@ keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a 
 load alone is a ConstantLoad, u_z0 alone a ConstantDepth.
 [shake] is left out where nothing moves in the plane besides the pull; without a name it is an InPlaneMotion where a
 list of amplitudes is given, and else an InPlaneOscillation.
+[friction], with the name kind = "ShearStrength", may stand in the place of mu_0 and tau_0 above the tables.
 A Prony material has arms = [[E_j, tau_j], ...]. With E_0 or G_0, the instantaneous modulus, they are shares of it.
 
 In the place of a field a file may give what a rig is set to (`mdr.case.paths`): frequency [Hz], load [N], tan_delta,
@@ -48,8 +49,9 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 from mdr import indenters, materials
-from mdr.case import in_plane, motion, pull
+from mdr.case import friction, in_plane, motion, pull
 from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.friction import SHORTHAND
 from mdr.case.motion import NormalOscillation
 from mdr.case.paths import HOLD, OPEN, SetPath, fields_set, hold_of, settings_of
 from mdr.case.pull import RigidPull, SpringPull
@@ -98,15 +100,10 @@ def write_case(case: SlidingContact) -> str:
 
 def written(case: SlidingContact, held: Mapping[str, Any]) -> str:
     """The same, with loads, frequencies and loss tangents for the fields that they set."""
-    top, tables = [], []
     case = as_given(case)
-    for name in fields_of(case):
-        value = getattr(case, name)
-        if name not in KINDS and (value or name not in MAY_LACK):
-            top.append(f"{name} = {toml_value(value)}")
-        elif name in KINDS and value is not None and not isinstance(value, RigidPull):
-            tables.append(_written(_TABLES[name], value, held))
-    return "\n\n".join(["\n".join(top), *tables]) + "\n"
+    parts = [(name, getattr(case, name)) for name in KINDS]
+    told = [_written(_TABLES[name], one, held) for name, one in parts if one and not isinstance(one, RigidPull)]
+    return "\n\n".join(sorted(told, key=lambda text: text.startswith("["))) + "\n"  # numbers above the tables first
 
 
 def write_table(name: str, record: Any) -> str:
@@ -118,11 +115,10 @@ class Tables(NamedTuple):
     """What the tables of a case file say, as far as they are sound; what is wrong with them is among the faults."""
 
     parts: dict[str, Any]  #: a record each
-    above: dict[str, Any]  #: the fields of the contact as a whole
     held: dict[str, Any]  #: load [N], with hold, and tan_delta [-], for fields that other tables decide about too
-    unsound: set[str]  #: tables with faults
+    unsound: set[str]  #: parts with faults
     faults: list[str]  #: names that are none, then those of tables
-    refused: list[str]  #: of the fields of the contact as a whole
+    refused: list[str]  #: of friction
 
 
 def read_tables(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Tables:
@@ -130,21 +126,27 @@ def read_tables(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Table
     content = {key: value for key, value in content.items() if key not in beside}
     if "axes" in content:
         raise CaseFileError(STUDY)
-    faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in TOP]
+    faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in (*_TABLES, *SHORTHAND)]
     tables = {**_meant(content), **content}
     tables |= {"oscillation": _still(tables["oscillation"])} if {"shake", "oscillation"} <= set(tables) else {}
     asked = [name for name in _TABLES if name in tables or name in HARMLESS]
     described = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
+    described["friction"] = tried(_law, {key: content[key] for key in SHORTHAND if key in content}, tables)
     sound = {name: found for name, (found, wrong) in described.items() if not wrong}
     held = {key: value for _, own in sound.values() for key, value in own.items()}
-    faults += [fault for _, wrong in described.values() for fault in wrong]
-    own = {key: value for key, value in content.items() if key in TOP and key not in KINDS}
-    read = {key: tried(_number_at, key, value, TOP[key]) for key, value in own.items()}
-    given = {key: value for key, (value, unread) in read.items() if not unread}
-    refused = [fault for _, unread in read.values() for fault in unread]
-    refused += _field_faults(SlidingContact, {**HARMLESS, **given}, {}, read)
+    refused = described["friction"][1]
+    faults += [fault for name, (_, wrong) in described.items() if name != "friction" for fault in wrong]
     parts = {name: part for name, (part, _) in sound.items()}
-    return Tables(parts, given, held, described.keys() - sound.keys(), faults, refused)
+    return Tables(parts, held, described.keys() - sound.keys(), faults, refused)
+
+
+def _law(numbers: Mapping[str, Any], tables: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
+    """The law of friction, of a table, or of the numbers above the tables."""
+    if "friction" not in tables:
+        return _TABLES["friction"].described(numbers)
+    if numbers:
+        raise CaseFileError(f"{' and '.join(numbers)} and [friction] say the same: give one of them")
+    return _TABLES["friction"].read(tables["friction"])
 
 
 def _still(table: Any) -> Any:
@@ -212,8 +214,12 @@ class _Table:
                 raise CaseFileError("is missing")
             if not isinstance(table, dict):
                 raise CaseFileError(f"must be one table of keys, got {_kind(table)}")
-            record = self._choose(table)
-            return self._describe(record, relative_moduli.material_of(record, table))
+            return self.described(table)
+
+    def described(self, table: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
+        """The same of a table whose faults are told without its name."""
+        record = self._choose(table)
+        return self._describe(record, relative_moduli.material_of(record, table))
 
     def _choose(self, table: Mapping[str, Any]) -> type[Any]:
         """The record that the table names."""
@@ -294,7 +300,7 @@ class _Table:
         if self.name == "oscillation" and key.casefold() in ACCELERATION:
             return f"{whose}; {ACCELERATION_OF}"
         if key.casefold() not in {one.casefold() for one in known}:
-            if key in TOP and key not in KINDS:
+            if key in SHORTHAND:
                 return f"{whose}; write it at the top of the file, above the first table"
             if homes := _homes(key, self):
                 return f"{whose}; it belongs to {homes}"
@@ -304,6 +310,7 @@ class _Table:
 _TABLES = {
     "indenter": _Table("indenter", "shape", indenters),
     "material": _Table("material", "model", materials),
+    "friction": _Table("friction", "kind", friction, friction.UNNAMED),
     "oscillation": _Table("oscillation", "motion", motion, motion.UNNAMED),
     "pull": _Table("pull", "", pull, (SpringPull,)),
     "shake": _Table("shake", "motion", in_plane, in_plane.UNNAMED),
@@ -314,10 +321,9 @@ _ALONE = {"ConstantLoad": {"load", "F_z0"}, "ConstantDepth": {"u_z0"}}
 HARMLESS = {
     "indenter": example_of(indenters.Paraboloid),
     "material": example_of(materials.Elastic),
+    "friction": example_of(friction.Coulomb),
     "oscillation": example_of(NormalOscillation),
 }
-TOP = units_of(SlidingContact)
-MAY_LACK = ("tau_0",)  #: not written where they are zero
 FREQUENCY = ("f", "freq", "hz")  #: what nobody should have to guess
 ACCELERATION = ("acceleration", "accel", "acc", "a", "a_z")
 ACCELERATION_OF = (
@@ -339,7 +345,7 @@ def _unknown_top(key: str, value: Any, beside: Sequence[str]) -> str:
         near = nearest(key, [*_TABLES, *beside])
         there = f"did you mean [{near}]?" if near else f"there are {', '.join(f'[{name}]' for name in _TABLES)}"
         return f"[{_bare(key)}] is no table of a case; {there}"
-    keys = [*(name for name in TOP if name not in KINDS), *beside]
+    keys = [*SHORTHAND, *beside]
     homes = _homes(key)
     return f"{_bare(key)} is no key outside the tables; " + (f"it belongs to {homes}" if homes else offer(key, keys))
 
@@ -400,7 +406,8 @@ def _written(table: _Table, record: Any, held: Mapping[str, Any]) -> str:
     lines = [f"{key} = {toml_value(value)}" for key, value in given.items() if value is not None]
     named = not table.unnamed or table.told_by(values) is not type(record)
     choice = [f"{table.choice} = {toml_value(name)}"] if named else []
-    return "\n".join([f"[{table.name}]", *choice, *lines])
+    title = [f"[{table.name}]"] if named or table.name != "friction" else []
+    return "\n".join([*title, *choice, *lines])
 
 
 # --- messages ---

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from mdr import indenters, materials
+from mdr.case import friction as laws
 from mdr.case import in_plane, waveforms
 from mdr.case import motion as motions
 from mdr.case.contact import SlidingContact, as_given
@@ -26,6 +27,7 @@ from mdr.tools.messages import offer, short
 TITLES = {
     "indenter": "the shape that is pressed in; its fields follow",
     "material": "the half-space",
+    "friction": "how much of it bears before it slips",
     "pull": "what drags it; a rigid pull without this table",
     "shake": "shake in the plane, besides the pull",
 }
@@ -51,12 +53,14 @@ MOTIONS: dict[str, motions.Motion] = _examples(motions) | {
     name: make(_SINE.u_z0, _SINE.du_z, _SINE.omega) for name, make in WAVEFORMS.items()
 }
 PULLS: dict[str, RigidPull | SpringPull] = {"SpringPull": example_of(SpringPull), "RigidPull": RigidPull()}
+LAWS: dict[str, laws.Friction] = _examples(laws)
 SHAKES: dict[str, in_plane.Shake] = _examples(in_plane)
 STILL = "none"  #: the name of no shake
 #: what each part can be
 PARTS: dict[str, dict[str, Any]] = {
     "indenter": SHAPES,
     "material": MATERIALS,
+    "friction": LAWS,
     "oscillation": MOTIONS,
     "pull": PULLS,
     "shake": {STILL: None, **SHAKES},
@@ -69,6 +73,7 @@ def example(
     motion: str = "NormalOscillation",
     pull: str = "SpringPull",
     shake: str = STILL,
+    friction: str = "Coulomb",
 ) -> SlidingContact:
     """The example of these records, named as in Python, in any case and with or without underscores.
 
@@ -79,7 +84,8 @@ def example(
     moved, shaken = _named("motion", motion, MOTIONS), _named("shake", shake, PARTS["shake"])
     if shaken is None and not moved.omega:
         shaken = SHAKES["InPlaneOscillation"]
-    return SlidingContact(indenter, body, 0.5, moved, _named("pull", pull, PULLS), shaken)
+    drag, law = _named("pull", pull, PULLS), _named("friction", friction, LAWS)
+    return SlidingContact(indenter, body, oscillation=moved, pull=drag, shake=shaken, friction=law)
 
 
 def example_file(case: SlidingContact) -> str:
@@ -94,7 +100,7 @@ def example_file(case: SlidingContact) -> str:
 def _commented(case: SlidingContact, block: str) -> str:
     """The lines of one table, or of what stands above the tables, each with a comment."""
     title, lines = block.partition("\n")[0].strip("[]"), block.split("\n")
-    record = getattr(case, title, case)
+    record: Any = getattr(case, title, case.friction)
     known = {one.name: one for one in fields(record)}
     for i, line in enumerate(lines):
         key, comment = line.partition(" = ")[0], ""

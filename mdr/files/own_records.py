@@ -1,4 +1,4 @@
-"""Shapes, materials and motions of a user's own, which case files may name beside those of the library."""
+"""Records of a user's own, such as a shape or a law of friction, which case files may name beside the library's."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from inspect import isabstract
 from typing import Any, TypeVar
 
 from mdr import indenters, materials
-from mdr.case import in_plane, motion
+from mdr.case import friction, in_plane, motion
 from mdr.case.contact import KINDS
 
 Record = TypeVar("Record", bound=type[Any])
@@ -17,13 +17,13 @@ _OWN: dict[str, type[Any]] = {}
 
 
 def register(record: Record) -> Record:
-    """Let case files, study files and `write_case` name a shape, a material or a motion of your own.
+    """Let case files, study files and `write_case` name a shape, a material, a law of friction or a motion of your own.
 
     Parameters
     ----------
     record : type
-        A dataclass, a subclass of `Indenter`, `Material`, `Motion` or `Shake` whose fields are numbers, words or lists
-        of them.
+        A dataclass, a subclass of `Indenter`, `Material`, `Friction`, `Motion` or `Shake` whose fields are
+        numbers, words or lists of them.
         Its name in a file is that of the class.
 
     Returns
@@ -56,7 +56,7 @@ def register(record: Record) -> Record:
         raise TypeError(f"record must be a dataclass that is an {kinds} and answers all that it must, got {record!r}")
     name = record.__name__
     known = _OWN.get(name, record)
-    taken = any(name in module.__all__ for module in (indenters, materials, motion, in_plane))
+    taken = any(name in module.__all__ for module in (indenters, materials, friction, motion, in_plane))
     if taken or _home(known) != _home(record):
         raise ValueError(f"{name} is the name of another record that a file can name; rename the class")
     _OWN[name] = record

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.coulomb import greatest
+from mdr.case.friction import named_full
 from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
@@ -78,7 +78,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
         return Summary(
             f"CofCurve at {n} velocities, {span(self.v_0, 'm/s')}",
             [
-                ("COF", span(self.cof), f"of {greatest(self.full_cof, self.mu_0)}"),
+                ("COF", span(self.cof), f"of {named_full(self.full_cof, self.mu_0)}"),
                 *([] if self.cof_y is None else [("across", span(self.cof_y), "mean F_y over mean F_z")]),
                 ("error", span(self.cof_error), "bound on the numerical error of the COF"),
                 ("settled", f"{settled} of {n}", ""),

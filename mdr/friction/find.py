@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mdr.case.contact import OF_FACE, SlidingContact, as_given
+from mdr.case.contact import SlidingContact, as_given
 from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.friction.cof_curve import friction_at
@@ -177,7 +177,7 @@ def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: 
     if share is not None:
         return _Wish(friction, between("share", share, -1, 1, "of full friction"), f"the share{where}", "")
     wanted = finite("cof", cof)
-    if path not in OF_FACE and not case.tau_0 and abs(wanted) >= case.mu_0:
+    if case.friction.is_coulomb and path not in case.friction.numbers and abs(wanted) >= case.mu_0:
         raise ValueError(
             f"cof must be below mu_0 = {case.mu_0:.6g}, got {wanted:.6g}: from v_c on friction is mu_0; ask for v_c, "
             "or for share=, which is that of mu_0"

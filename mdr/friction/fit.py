@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from mdr.case.contact import OF_FACE, SlidingContact, as_given
+from mdr.case.contact import SlidingContact, as_given
 from mdr.closed_forms.shaken_pull import has_closed_form
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
@@ -426,7 +426,7 @@ def _beyond(case: SlidingContact, model: _Model) -> list[str]:
     """Friction above the local coefficient, which no contact shows."""
     free = {one.path for one in model.free}
     above = model.data.cof - case.mu_0 - (0.0 if model.data.error is None else ERRORS * model.data.error)
-    if case.tau_0 or free & set(OF_FACE) or case.is_shaken or not above.max() > 0:
+    if not case.friction.is_coulomb or free & set(case.friction.numbers) or case.is_shaken or not above.max() > 0:
         return []
     return [f"cof: measured up to {model.data.cof.max():.4g}, above mu_0 = {case.mu_0:.4g}; fit mu_0 too"]
 

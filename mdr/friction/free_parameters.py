@@ -13,14 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, OF_FACE, SlidingContact
-from mdr.case.paths import GROUPS, HOLD, RIG, facts_at
+from mdr.case.contact import SlidingContact
+from mdr.case.paths import GROUPS, HOLD, RIG, facts_at, one_name, paths_of
 from mdr.given.vary import case_at, value_at
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import ends
-from mdr.tools.fields import fields_of
 from mdr.tools.messages import offer, short
 
 DECADES = 3.0  #: of the search for a positive parameter to either side; an interval that is wider says nothing
@@ -107,19 +106,14 @@ def path_of(case: SlidingContact, name: Any) -> str:
     """The path of a parameter in the case."""
     if not isinstance(name, str):
         raise TypeError(f"parameters must be names, got {short(repr(name))}")
-    known = [f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot))]
-    numbers = [path for path in known if isinstance(value_at(case, path), int | float)]
-    if name in (*OF_FACE, "mindlin_ratio", *GROUPS, *RIG, *numbers):
-        return name
+    numbers = [path for path in paths_of(case) if isinstance(value_at(case, path), int | float)]
+    if one_name(name) in ("mindlin_ratio", *GROUPS, *RIG, *numbers):
+        return one_name(name)
     ends = [path for path in numbers if path.partition(".")[2] == name]
     if len(ends) == 1:
         return ends[0]
-    short_names = [path.partition(".")[2] for path in numbers]
-    meant = (
-        f"is {' or '.join(ends)}"
-        if ends
-        else f"is no parameter of this case; {offer(name, [*OF_FACE, 'mindlin_ratio', *short_names])}"
-    )
+    short_names = ["mindlin_ratio", *(path.rpartition(".")[2] for path in numbers)]
+    meant = f"is {' or '.join(ends)}" if ends else f"is no parameter of this case; {offer(name, short_names)}"
     raise ValueError(f"{short(name)} {meant}")
 
 

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
+from mdr.case.contact import SlidingContact, as_given
 from mdr.case.motion import PeriodicMotion
-from mdr.case.paths import facts_at, fields_set
+from mdr.case.paths import facts_at, fields_set, paths_of
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, changed, path_of, value_of
@@ -22,7 +22,6 @@ from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
 from mdr.tools.checks import between, finite
 from mdr.tools.csv_table import Tabled, csv_text
-from mdr.tools.fields import fields_of
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import progress
@@ -184,8 +183,7 @@ def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[
 
 def _inputs(case: SlidingContact, held: Mapping[str, Any]) -> list[str]:
     """The numbers of a case that are not zero, by what they were set with."""
-    known = [*OF_FACE, *(f"{slot}.{field}" for slot in KINDS for field in fields_of(getattr(case, slot)))]
-    paths = [path for path in known if isinstance(value := value_at(case, path), float) and value]
+    paths = [path for path in paths_of(case) if isinstance(value := value_at(case, path), float) and value]
     alike = {value_at(case, path) for path in fields_set("frequency") if path in paths}
     for setting in (*(("frequency",) if len(alike) == 1 else ()), *held):
         paths = list(dict.fromkeys(setting if path in fields_set(setting) else path for path in paths))

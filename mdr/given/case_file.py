@@ -115,10 +115,12 @@ def parse_said(text: str, source: str) -> Said:
 def case_of(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Said:
     """What tables already parsed say; keys `beside` them are left alone. Raises CaseFileError with every fault."""
     said, axes = read_tables(content, beside), content.get("axes")
-    above = {"mu_0": 1.0} if said.refused else said.above  # whether the parts fit each other shows whatever mu_0 is
+    written = {}
     if not said.faults and "support_acceleration" in said.held and "m_z" in content["oscillation"]:
-        above = {**above, "oscillation.m_z": said.parts["oscillation"].m_z}  # written, it is not to be chosen
-    case, whole = (None, []) if said.faults else tried(contact_of, said.parts, {**above, **said.held})
+        written = {"oscillation.m_z": said.parts["oscillation"].m_z}  # it is not to be chosen
+    # whether the others fit each other shows whatever friction is
+    parts = {"friction": HARMLESS["friction"], **said.parts}
+    case, whole = (None, []) if said.faults else tried(contact_of, parts, {**written, **said.held})
     if case is None or said.refused:
         raise CaseFileError.of([*said.faults, *said.refused, *whole])
     _ask_for_masses(case, content, axes if isinstance(axes, dict) else {})
@@ -131,7 +133,7 @@ def stand_in(content: Mapping[str, Any], beside: Sequence[str]) -> tuple[Sliding
     To find what else is wrong in a file whose case is refused; None where its tables do not fit each other.
     """
     said = read_tables(content, beside)
-    return tried(contact_of, {**HARMLESS, **said.parts}, {"mu_0": 1.0, **said.held})[0], said.unsound
+    return tried(contact_of, {**HARMLESS, **said.parts}, said.held)[0], said.unsound
 
 
 def _ask_for_masses(case: SlidingContact, content: Mapping[str, Any], axes: Mapping[str, Any]) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.doubts import edge, wavelength
+from mdr.case.friction import Friction, law_of
 from mdr.case.in_plane import Shake
 from mdr.case.motion import ConstantLoad, LoadOscillation, Motion, NormalOscillation
 from mdr.case.paths import HOLD, SET, hold_of
@@ -32,9 +33,10 @@ from mdr.tools.warned import warn_outside
 def rig(
     indenter: Indenter,
     material: Material,
-    mu_0: float,
+    mu_0: float | None = None,
     *,
     tau_0: float = 0.0,
+    friction: Friction | None = None,
     frequency: float,
     load: float | None = None,
     load_grams: float | None = None,
@@ -59,10 +61,12 @@ def rig(
         The shape; a measured one is a `SampledProfile`.
     material : Material
         The half-space.
-    mu_0 : float
-        Coefficient of friction without vibration [-].
+    mu_0 : float, optional
+        Coefficient of friction without vibration [-]; give it or `friction`.
     tau_0 : float
         Shear strength of the face besides [Pa].
+    friction : Friction, optional
+        The law of friction, in the place of mu_0 and tau_0.
     frequency : float
         Frequency of the vibration [Hz], not the angular one.
     load, load_grams : float
@@ -172,8 +176,11 @@ def rig(
     elif amplitudes:
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
         motion = NormalOscillation(0.0, du_z, omega)
-    parts = {"indenter": indenter, "material": material, "oscillation": motion, "pull": pull, "shake": shake}
-    settings = {"mu_0": mu_0, "tau_0": tau_0, "load": F_z0, **held}
+    parts = {
+        "indenter": indenter, "material": material, "friction": law_of(friction, mu_0, tau_0), "oscillation": motion,
+        "pull": pull, "shake": shake,
+    }  # fmt: skip
+    settings = {"load": F_z0, **held}
     case = contact_of(parts, settings)
     way_out = ""
     if acceleration is not None:

@@ -19,9 +19,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mdr.case.contact import KINDS, OF_FACE, SlidingContact, as_given
+from mdr.case.contact import KINDS, SlidingContact, as_given
+from mdr.case.friction import Friction
 from mdr.case.motion import Motion, PeriodicMotion
-from mdr.case.paths import HOLD, RIG, SET, fields_set, hold_of
+from mdr.case.paths import HOLD, RIG, SET, fields_set, hold_of, set_in, slot_of
 from mdr.given.mean_load import under_mean_load, warn_of_mean_loads
 from mdr.materials import KelvinVoigt
 from mdr.normal.load_control import static_depth, static_load
@@ -67,21 +68,23 @@ def warn_of_load(settings: Mapping[str, Any], case: SlidingContact, where: str =
 
 def case_at(case: SlidingContact, settings: Mapping[str, Any]) -> SlidingContact:
     """The case with these paths set to these values; what its records refuse is raised as they word it."""
-    of_face = {name: getattr(case, name) for name in OF_FACE}
-    return contact_of({slot: getattr(case, slot) for slot in KINDS}, {**of_face, **settings})
+    return contact_of({slot: getattr(case, slot) for slot in KINDS}, settings)
 
 
 def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> SlidingContact:
-    """The contact of these parts with these paths, mu_0 among them, set to these values."""
+    """The contact of these parts with these paths set to these values."""
     parts = {slot: settings.get(slot, part) for slot, part in parts.items()}
     changes: dict[str, dict[str, Any]] = {slot: {} for slot in KINDS}
 
     def changed(slot: str) -> Any:
-        return replace(parts[slot], **changes[slot]) if changes[slot] else parts.get(slot)
+        part: Any = parts.get(slot)
+        if not changes[slot]:
+            return part
+        return part.varied(**changes[slot]) if isinstance(part, Friction) else replace(part, **changes[slot])
 
     for path, value in settings.items():
-        slot, _, field = path.partition(".")
-        if field:
+        slot, field = slot_of(path)
+        if field and path not in (*_PATHS, HOLD):
             _require_field(path, parts.get(slot), field)
             changes[slot][field] = value
     if "frequency" in settings:
@@ -113,8 +116,7 @@ def contact_of(parts: Mapping[str, Any], settings: Mapping[str, Any]) -> Sliding
         _require_field("alpha", parts["oscillation"], "du_z")
         u_z0 = changes["oscillation"].get("u_z0", parts["oscillation"].u_z0)
         changes["oscillation"]["du_z"] = settings["alpha"] * u_z0
-    of_face = {name: settings[name] for name in OF_FACE if name in settings}
-    contact = SlidingContact(**of_face, **{slot: changed(slot) for slot in parts})
+    contact = SlidingContact(**{slot: changed(slot) for slot in parts})
     for path, of in _PATHS.items():
         if path in settings and of.field is not None:
             contact = _with(contact, path, of.field(contact, path, settings[path]))
@@ -162,8 +164,9 @@ def value_at(case: SlidingContact, path: str, hold: str = "depth") -> Any:
         return mean_normal_force(case)
     if path in _PATHS:
         return _PATHS[path].value(case)
-    slot, _, field = path.rpartition(".")
-    return getattr(getattr(case, slot) if slot else case, field)
+    slot, field = slot_of(path)
+    part = getattr(case, slot)
+    return getattr(part, field) if field else part
 
 
 # --- there: the field that a path sets in a contact ---
@@ -241,7 +244,7 @@ def _one_omega(path: str, *moving: Any) -> float:
 def _require_field(path: str, record: Any, field: str) -> None:
     if record is None:
         raise ValueError(f"{path}: nothing shakes in the plane; give the case a shake")
-    if field not in fields_of(record):
+    if field not in set_in(record):
         raise ValueError(f"{path}: {type(record).__name__} has no {field}")
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact, require_case
-from mdr.case.coulomb import greatest
+from mdr.case.friction import named_full
 from mdr.half_space.friction import Friction, LastPeriod, Settings, contact_of, last_period, stuck
 from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Step
@@ -80,7 +80,7 @@ class HalfSpaceRun(Summarised, Tabled, ArrayRecord):
     def _summary(self) -> Summary:
         size = f"{self.cells} x {self.cells} cells, {self.steps_per_period} steps per period, {self.n_periods} periods"
         parts = f"grid {self.grid_error:.1e}, step {self.step_error:.1e}, cycle {self.cycle_error:.1e}"
-        full = greatest(self.full_cof, self.mu_0)
+        full = named_full(self.full_cof, self.mu_0)
         return Summary(
             f"HalfSpaceRun at v_0 = {number(self.v_0, 'm/s')}{'' if self.coupled else ', without coupling'}",
             [
@@ -151,7 +151,7 @@ class HalfSpaceCurve(Summarised, Tabled, ArrayRecord):
         return Summary(
             f"HalfSpaceCurve at {n} velocities, {span(self.v_0, 'm/s')}{'' if self.coupled else ', without coupling'}",
             [
-                ("COF", span(self.cof), f"of {greatest(self.full_cof, self.mu_0)}"),
+                ("COF", span(self.cof), f"of {named_full(self.full_cof, self.mu_0)}"),
                 ("COF across", span(self.cof_y), "of the force across the pull"),
                 ("error", span(self.cof_error), f"greatest parts: {parts}"),
                 ("settled", f"{settled} of {n}", ""),

@@ -28,11 +28,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import KINDS, OF_FACE, SlidingContact
-from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_set
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_at, fields_set, set_in, slot_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
-from mdr.tools.fields import fields_of
 from mdr.tools.messages import nearest, one_line, short
 from mdr.tools.records import ArrayRecord
 
@@ -146,8 +145,8 @@ def without_addresses(text: str) -> str:
 def _axis(path: str, values: Any, parts: Mapping[str, tuple[Any, ...]]) -> Axis:
     if path in parts:
         return Axis(path, parts[path], _distinct(path, parts[path]))
-    slot, _, field = path.partition(".")
-    having = [getattr(part, field) for part in parts.get(slot, ()) if field in fields_of(part)]
+    slot, field = slot_of(path)
+    having = [getattr(part, field) for part in parts.get(slot, ()) if field in set_in(part)]
     if any(not isinstance(value, int | float | None) for value in having):
         others = tuple(_frozen(one) for one in _listed(path, values))
         return Axis(path, others, _distinct(path, others))
@@ -212,16 +211,16 @@ def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
 
 def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     """Refuse a path that no case of the study has."""
-    of_parts = dict.fromkeys(f"{slot}.{one}" for slot, has in parts.items() for part in has for one in fields_of(part))
-    if path in (*VELOCITIES, *OF_FACE, *parts) or any(field in of_parts for field in fields_set(path)):
+    of_parts = dict.fromkeys(one for slot, has in parts.items() for part in has for one in fields_at(slot, part))
+    if path in (*VELOCITIES, *parts) or any(field in of_parts for field in fields_set(path)):
         return
-    slot, _, field = fields_set(path)[0 if path in GROUPS else -1].partition(".")
+    slot, field = slot_of(fields_set(path)[0 if path in GROUPS else -1])
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
-    known = [*VELOCITIES, *OF_FACE, *parts, *RIG, *GROUPS, *of_parts]
+    known = [*VELOCITIES, *parts, *RIG, *GROUPS, *of_parts]
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)
-    whose = f"; {' and '.join(names)} has none" if slot in parts and field else ""
+    whose = f"; {' and '.join(names)} has none" if slot in parts and "." in path else ""
     there = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
     raise ValueError(f"{short(path)} is no path of this case{whose}; {there}")

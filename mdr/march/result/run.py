@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.coulomb import greatest
+from mdr.case.friction import named_full
 from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.dynamics.state import UNKNOWN
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
@@ -120,7 +120,11 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
         missing = f"missing from the balance of one period, {spent.lost:.4g} J lost in it"
         across = ("COF across", with_error(self.cof_y, self.cof_error), "mean F_y/mean F_z")
         rows = [
-            ("COF", with_error(self.cof, self.cof_error), f"{self.share:.6g} of {greatest(self.full_cof, self.mu_0)}"),
+            (
+                "COF",
+                with_error(self.cof, self.cof_error),
+                f"{self.share:.6g} of {named_full(self.full_cof, self.mu_0)}",
+            ),
             ("settled", "yes" if self.settled else "no", self.kind),
             *([("why", self.why, "")] if self.why else []),
             ("stick", f"{self.stick_share:.4g}", "share of the contact time spent sticking, weighted by force"),

@@ -1,0 +1,230 @@
+"""Laws of friction: how much of a contact bears, per normal force and per area, before it slips.
+
+In full slip friction is mu_0 F_N, and on a disc of radius r_s about the middle a shear strength tau_0 besides:
+mu_0 F_N + tau_0 pi r_s². Of a spring at x that is 2 tau_0 sqrt(r_s² - x²) dx. A law of one's own says mu_0, tau_0 and
+r_s.
+
+A case, its file and its paths take the numbers of `Coulomb` and `ShearStrength` without the law: mu_0 = 0.5 is
+Coulomb(0.5), and with a tau_0 above zero it is ShearStrength(0.5, tau_0).
+
+Symbols: mu_0 [-], tau_0 [Pa], a radius of contact [m].
+"""
+
+from __future__ import annotations
+
+from abc import ABC
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.tools.arrays import Array
+from mdr.tools.checks import not_negative, positive
+from mdr.tools.fields import Record, facts, facts_of, fields_of
+from mdr.tools.summary import Row, number
+
+__all__ = ["Coulomb", "Friction", "ShearStrength"]
+
+SHARE = facts(
+    "-", "local coefficient of friction", not_negative, label=r"local friction $\mu_0$", note="coefficient of friction",
+    example=0.5,
+)  # fmt: skip
+
+
+class Friction(Record, ABC):
+    """What every law of friction must answer: mu_0, tau_0, and the radius on which the strength acts."""
+
+    if TYPE_CHECKING:  # fields of a law, or properties
+
+        @property
+        def mu_0(self) -> float:
+            """Friction over the normal force in slip [-]."""
+
+        @property
+        def tau_0(self) -> float:
+            """Shear strength [Pa] besides, where it acts."""
+
+    def strong_radius(self, a: ArrayLike) -> Array:
+        """Radius of the disc on which the strength acts [m].
+
+        Parameters
+        ----------
+        a : array_like of float
+            Radius of the contact [m].
+
+        Returns
+        -------
+        ndarray
+            The radius [m] in the shape of a: here the whole contact.
+        """
+        return np.asarray(a, dtype=float)
+
+    @property
+    def needs_area(self) -> bool:
+        """Whether friction depends on the area of contact, which the shape must know then."""
+        return self.tau_0 > 0
+
+    @property
+    def is_coulomb(self) -> bool:
+        """Whether friction is mu_0 times the normal force at every point and instant, as closed forms take it."""
+        return False
+
+    def full(self, force: ArrayLike, a: ArrayLike) -> Array:
+        """Friction of full slip [N].
+
+        Parameters
+        ----------
+        force : array_like of float
+            Normal force [N].
+        a : array_like of float
+            Radius of the contact [m]; not asked for unless `needs_area`.
+
+        Returns
+        -------
+        ndarray
+            mu_0 F + tau_0 pi r_s² [N].
+        """
+        borne = self.mu_0 * np.asarray(force)
+        return np.asarray(borne + self.tau_0 * np.pi * self.strong_radius(a) ** 2 if self.needs_area else borne)
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of what can be set in the law."""
+        return fields_of(self)
+
+    def varied(self, **changes: Any) -> Friction:
+        """The law with other numbers.
+
+        Parameters
+        ----------
+        **changes
+            Values by name, of those in `numbers`.
+
+        Returns
+        -------
+        Friction
+            A law of the same kind.
+        """
+        return replace(self, **changes)  # type: ignore[type-var]
+
+    @property
+    def simplest(self) -> Friction:
+        """The law, or a simpler one that is the same."""
+        return self
+
+    def told(self) -> list[Row]:
+        """Rows of a summary: the law, and a number each, with its unit and meaning."""
+        given = [(one, getattr(self, one.name)) for one in fields(self) if one.init]  # type: ignore[arg-type]
+        rows = [(one.name, number(value, facts_of(one).unit), facts_of(one).meaning) for one, value in given]
+        return [("friction", type(self).__name__, "law of friction"), *rows]
+
+
+class _OfNumbers(Friction):
+    """A law that is made of mu_0 and tau_0 alone, and changes its kind with them."""
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Both, as a strength may be set in either."""
+        return SHORTHAND
+
+    def varied(self, **changes: Any) -> Friction:
+        """The law of these numbers."""
+        return of_numbers(**{"mu_0": self.mu_0, "tau_0": self.tau_0, **changes})
+
+    def told(self) -> list[Row]:
+        """The numbers alone."""
+        return super().told()[1:]
+
+
+@dataclass(frozen=True)
+class Coulomb(_OfNumbers):
+    """Friction is mu_0 times the normal force."""
+
+    mu_0: float = field(metadata=SHARE)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        positive("mu_0", self.mu_0, "coefficient of friction; it may be 0 where tau_0 is above")
+
+    @property
+    def tau_0(self) -> float:
+        """No strength: zero [Pa]."""
+        return 0.0
+
+    @property
+    def is_coulomb(self) -> bool:
+        """Always."""
+        return True
+
+    def strong_radius(self, a: ArrayLike) -> Array:
+        """Zero [m] in the shape of the radius a of contact [m]."""
+        return np.zeros_like(a, dtype=float)
+
+
+@dataclass(frozen=True)
+class ShearStrength(_OfNumbers):
+    """Friction is mu_0 times the normal force, and tau_0 times the area of contact; mu_0 may be 0.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> mdr.ShearStrength(mu_0=0.2, tau_0=1e4).full(force=0.5, a=1e-3)
+    array(0.13141593)
+    """
+
+    mu_0: float = field(metadata=SHARE)
+    tau_0: float = field(
+        metadata=facts(
+            "Pa", "shear strength of the face, beside mu_0", not_negative, label=r"shear strength $\tau_0$", example=1e4
+        )
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.tau_0:
+            Coulomb(self.mu_0)  # refuses what is no friction at all
+
+    @property
+    def is_coulomb(self) -> bool:
+        """Only of a strength of zero."""
+        return not self.tau_0
+
+    @property
+    def simplest(self) -> Friction:
+        """Coulomb's of a strength of zero."""
+        return self if self.tau_0 else Coulomb(self.mu_0)
+
+
+UNNAMED = (ShearStrength, Coulomb)  #: laws that a file need not name: the first with a key that the last has not
+SHORTHAND = fields_of(ShearStrength)  #: numbers of friction that stand without a law
+
+
+def of_numbers(mu_0: Any, tau_0: Any = 0.0) -> Friction:
+    """The law of these numbers: Coulomb's without a strength."""
+    return ShearStrength(mu_0, tau_0).simplest
+
+
+def law_of(friction: Any, mu_0: Any, tau_0: Any, known: Friction | None = None) -> Any:
+    """The law that is given to a case, by itself or by its numbers; known: the law of the case that this one varies.
+
+    `dataclasses.replace` hands over law and numbers as they stand in the case but for what it changes.
+    """
+    given = {"mu_0": mu_0, "tau_0": tau_0}
+    usual = {"mu_0": None, "tau_0": 0.0} if known is None else {name: getattr(known, name) for name in given}
+    changed = {name: value for name, value in given.items() if value is not usual[name] and value != usual[name]}
+    if known is not None and friction is known:
+        return known.varied(**changed)
+    if friction is None:
+        if mu_0 is None:
+            raise TypeError("friction is missing: give mu_0, or a law such as friction=mdr.Coulomb(mu_0)")
+        return of_numbers(mu_0, tau_0)
+    if changed:
+        names = " and ".join(changed)
+        raise ValueError(f"{names} and friction say the same: give {names}, or the law {type(friction).__name__} alone")
+    return friction
+
+
+def named_full(full: float, mu_0: float) -> str:
+    """The COF of full slip, named."""
+    return f"mu_0 = {mu_0:.6g}" if full == mu_0 else f"{full:.6g} in full slip"
