@@ -104,7 +104,7 @@ HOSTILE = {
     "_function": [("r**2", TypeError, "must be a function"), (3, TypeError, "must be a function")],
     "_name": [(3, TypeError, "must be a string")],
 }  # fmt: skip
-PARTS = {"indenter": RUBBER, "material": BALL, "oscillation": SLED, "pull": TAPPING, "shake": TAPPING}
+PARTS = {"indenter": RUBBER, "material": BALL, "friction": SLED, "oscillation": SLED, "pull": TAPPING, "shake": TAPPING}
 RECORDS = [
     one
     for name in mdr.__all__
@@ -113,8 +113,8 @@ RECORDS = [
 FIELDS = [(record, field) for record in RECORDS for field in fields(record)]
 NAMES = [f"{record.__name__}.{field.name}" for record, field in FIELDS]
 #: what the physics allows to be zero, to have a sign, or to have bounds of its own; every other number is positive
-NOT_NEGATIVE = {"SlidingContact.mu_0", "SlidingContact.tau_0", "KelvinVoigt.tau", "Prony.tau", "Prony.E_inf",
-                "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
+NOT_NEGATIVE = {"Coulomb.mu_0", "ShearStrength.mu_0", "ShearStrength.tau_0", "KelvinVoigt.tau", "Prony.tau",
+                "Prony.E_inf", "StandardLinearSolid.E_inf", "StandardLinearSolid.E_1",
                 "LoadOscillation.m_z", "InPlaneOscillation.du_x", "InPlaneOscillation.du_y", "SpringPull.m",
                 "SpringPull.c_x", "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
 SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}

@@ -181,7 +181,7 @@ SlidingContact.__signature__ = signature(SlidingContact).replace(  # type: ignor
 def _told(name: str, part: Any) -> list[Row]:
     """A part of a case in a row: its kind, and its numbers with their units; a law of friction by its own rows."""
     if isinstance(part, Friction):
-        return part.told()
+        return part.told
     part = getattr(part, "load", None) or part  # of a depth that was solved for, what it was solved from
     if not is_dataclass(part):
         return [(name, type(part).__name__, short(repr(part)))]

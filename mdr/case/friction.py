@@ -113,6 +113,7 @@ class Friction(Record, ABC):
         """The law, or a simpler one that is the same."""
         return self
 
+    @property
     def told(self) -> list[Row]:
         """Rows of a summary: the law, and a number each, with its unit and meaning."""
         given = [(one, getattr(self, one.name)) for one in fields(self) if one.init]  # type: ignore[arg-type]
@@ -132,9 +133,10 @@ class _OfNumbers(Friction):
         """The law of these numbers."""
         return of_numbers(**{"mu_0": self.mu_0, "tau_0": self.tau_0, **changes})
 
+    @property
     def told(self) -> list[Row]:
         """The numbers alone."""
-        return super().told()[1:]
+        return super().told[1:]
 
 
 @dataclass(frozen=True)

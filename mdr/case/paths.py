@@ -117,8 +117,9 @@ def set_in(part: Any) -> tuple[str, ...]:
 
 
 def paths_of(case: SlidingContact) -> list[str]:
-    """Paths of all fields that can be set in a case, one by one."""
-    return [path for slot in KINDS for path in fields_at(slot, getattr(case, slot))]
+    """Paths of all fields that can be set in a case, those of the law of friction first."""
+    found = [path for slot in KINDS for path in fields_at(slot, getattr(case, slot))]
+    return sorted(found, key=lambda path: "." in path)
 
 
 def slot_of(path: str) -> tuple[str, str]:

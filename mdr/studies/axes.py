@@ -218,7 +218,8 @@ def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:
         raise ValueError(f"{path} sets {slot}.{field}, which {' and '.join(names)} has not; give one that has it")
-    known = [*VELOCITIES, *parts, *RIG, *GROUPS, *of_parts]
+    of_friction = [one for one in of_parts if "." not in one]
+    known = list(dict.fromkeys((*VELOCITIES, *of_friction, *parts, *RIG, *GROUPS, *of_parts)))
     homes = [one for one in known if one.endswith(f".{path}")]
     meant = homes[0] if homes else nearest(path, known)
     whose = f"; {' and '.join(names)} has none" if slot in parts and "." in path else ""
