@@ -101,10 +101,10 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
             "bears: is it in another unit?"
         )
     d = known.contact_depth
-    area = np.pi * float(known.indenter.contact_radius(d)) ** 2
-    cof = known.mu_0 + (known.tau_0 and known.tau_0 * area / float(known.indenter.force(d, known.material.E_star)))
+    force, a = known.indenter.force(d, known.material.E_star), known.indenter.contact_radius(d)
+    cof = float(known.friction.full(force, a) / force)
     if cof < LEAST_MU_0:
-        name = "with tau_0, the coefficient of friction" if known.tau_0 else "mu_0"
+        name = "mu_0" if known.friction.is_coulomb else "with tau_0, the coefficient of friction"
         yield f"{name} = {cof:.4g} is less than {LEAST_MU_0:g}, that of a joint: is it in another unit?"
 
 

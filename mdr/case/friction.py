@@ -61,6 +61,11 @@ class Friction(Record, ABC):
         return np.asarray(a, dtype=float)
 
     @property
+    def kinks(self) -> tuple[float, ...]:
+        """Radii of contact [m] at which the strong radius is no smooth function of them."""
+        return ()
+
+    @property
     def needs_area(self) -> bool:
         """Whether friction depends on the area of contact, which the shape must know then."""
         return self.tau_0 > 0

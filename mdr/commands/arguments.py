@@ -151,7 +151,7 @@ class Asked(NamedTuple):
     def on(self, case: mdr.SlidingContact) -> float:
         """The value [SI] for a case. Raises WrongInput for a multiple where v_c is infinite or zero."""
         if self.of != OF_V_C:
-            if self.of and case.tau_0:
+            if self.of and not case.friction.is_coulomb:
                 raise WrongInput(
                     f"{self.number:g} mu_0: with a shear strength mu_0 is not the friction; give a number, or --share"
                 )

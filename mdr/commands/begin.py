@@ -9,7 +9,7 @@ from typing import Any
 
 from mdr.commands.output import WrongInput, answer, refusals
 from mdr.files.case_files import nameable
-from mdr.files.examples import MOTIONS, PULLS, SHAKES, STILL, example, example_file
+from mdr.files.examples import LAWS, MOTIONS, PULLS, SHAKES, STILL, example, example_file
 from mdr.tools.fields import facts_of
 from mdr.tools.messages import offer
 
@@ -22,6 +22,7 @@ def add_options_of_case(command: argparse.ArgumentParser) -> None:
         ("motion", "name", "NormalOscillation", ", ".join(MOTIONS)),
         ("pull", "name", "SpringPull", " or ".join(PULLS)),
         ("shake", "name", STILL, ", ".join(SHAKES)),
+        ("friction", "law", "Coulomb", " or ".join(LAWS)),
     ):
         command.add_argument(f"--{option}", metavar=kind, default=usual, help=f"{meaning} (default: {usual})")
 
@@ -48,7 +49,7 @@ def shapes(args: argparse.Namespace, _: None) -> int:
 def case(args: argparse.Namespace, _: None) -> int:
     """Print a commented case file."""
     with refusals():
-        found = example(args.example, args.material, args.motion, args.pull, args.shake)
+        found = example(args.example, args.material, args.motion, args.pull, args.shake, args.friction)
     return answer(args, {}, example_file(found).removesuffix("\n"), found)
 
 

@@ -63,5 +63,6 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
 def told(args: argparse.Namespace, case: mdr.SlidingContact) -> str:
     """The command, and shape, material and mu_0 of the case, a table a line."""
     tables = mdr.write_case(case).rstrip().split("\n\n")
-    kept = [one.replace("]\n", "] ").replace("\n", ", ") for one in tables if one.startswith(("mu_0", "[ind", "[mat"))]
-    return "\n".join(shorten(line, 116) for line in (args.command, *kept))  # fits a line of C
+    kept = [one for one in tables if one.startswith(("mu_0", "[fric", "[ind", "[mat"))]
+    lines = [one.replace("]\n", "] ").replace("\n", ", ") for one in kept]
+    return "\n".join(shorten(line, 116) for line in (args.command, *lines))  # fits a line of C

@@ -137,7 +137,7 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
     natural = 2.0 * case.omega  # of a new body: off resonance
     m = k_x / natural**2
     reach = case.reach(depth)
-    strength = case.tau_0 or case.mu_0 * load / (np.pi * float(case.indenter.contact_radius(depth)) ** 2)
+    a = float(case.indenter.contact_radius(depth))
     sizes = {
         "u_z0": depth,
         "du_z": small * depth,
@@ -148,7 +148,7 @@ def scales_of(case: SlidingContact) -> dict[str, float]:
         "k_x": k_x,
         "m": m,
         "c_x": 2 * small * float(np.sqrt(k_x * m)),
-        "tau_0": float(strength),
+        "tau_0": float(case.friction.full(load, a)) / (np.pi * a**2),  # bears as much
         "du_x": reach / 2,
         "du_y": reach / 2,
     }

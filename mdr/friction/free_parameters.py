@@ -18,6 +18,7 @@ from mdr.case.paths import GROUPS, HOLD, RIG, facts_at, one_name, paths_of
 from mdr.given.vary import case_at, value_at
 from mdr.materials.base import poisson_ratio_of
 from mdr.normal.resolved import at_rest, resolved
+from mdr.tools.allowed import last_allowed, refusal_of
 from mdr.tools.arrays import SAME
 from mdr.tools.checks import ends
 from mdr.tools.messages import offer, short
@@ -147,22 +148,12 @@ def changed(case: SlidingContact, path: str, value: float, held: Mapping[str, An
 
 def _refusal(case: SlidingContact, path: str, value: float, held: Mapping[str, Any]) -> str:
     """Why the case cannot have this value; "" where it can."""
-    try:
-        at_rest(changed(case, path, value, held))
-    except (ValueError, TypeError, ArithmeticError) as refusal:
-        return str(refusal) or type(refusal).__name__
-    return ""
+    return refusal_of(lambda: at_rest(changed(case, path, value, held)))
 
 
 def allowed(case: SlidingContact, path: str, start: float, end: float, held: Mapping[str, Any]) -> float:
     """The end of a range, or the value nearest to it that the case can have."""
-    if not _refusal(case, path, end, held):
-        return end
-    good, bad = start, end
-    while abs(bad - good) > SAME * abs(good or end):
-        middle = (good + bad) / 2
-        good, bad = (good, middle) if _refusal(case, path, middle, held) else (middle, bad)
-    return good
+    return last_allowed(lambda value: at_rest(changed(case, path, value, held)), start, end, SAME)
 
 
 def _bounds(

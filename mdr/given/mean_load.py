@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 
 from mdr.case.contact import SlidingContact
 from mdr.normal.normal_force import mean_normal_force
+from mdr.tools.allowed import last_allowed, refusal_of
 from mdr.tools.arrays import EXACT, SAME
 from mdr.tools.warned import warn_outside
 
@@ -38,24 +39,12 @@ def under_mean_load(at: Callable[[float], SlidingContact], load: float, least: f
 
 def _that_can_be(at: Callable[[float], SlidingContact], low: float, high: float) -> tuple[float, float, str]:
     """The ends of a range of depths, or what is nearest to them of what can be; and why one of them cannot."""
-
-    def refusal(u_z0: float) -> str:
-        try:
-            at(u_z0)
-        except (ValueError, TypeError) as refused:
-            return str(refused)
-        return ""
-
-    of_low, of_high = refusal(low), refusal(high)
+    of_low, of_high = refusal_of(at, low), refusal_of(at, high)
     if of_low and of_high:
         at(high)  # raises
-    if not of_low and not of_high:
-        return low, high, ""
-    good, bad = (high, low) if of_low else (low, high)
-    while abs(bad - good) > EXACT * abs(high - low):
-        middle = (good + bad) / 2
-        good, bad = (good, middle) if refusal(middle) else (middle, bad)
-    return (good, high, of_low) if of_low else (low, good, of_high)
+    if of_low:
+        return last_allowed(at, high, low, EXACT), high, of_low
+    return low, last_allowed(at, low, high, EXACT), of_high
 
 
 def warn_of_mean_loads(found: Sequence[tuple[float, float]], where: str = "", way_out: str = "") -> None:

@@ -125,13 +125,11 @@ def contact_of(case: SlidingContact, settings: Settings) -> Contact:
     beta = material.dundurs_beta if settings.coupled else 0.0
     h = 2 * MARGIN * float(shape.contact_radius(deepest)) / cells
     half_space = HalfSpace(cells, h, material.E_star, material.G_star, beta)
-    r = np.hypot(half_space.places[:, None], half_space.places[None, :])
+    r = half_space.radii
     height = np.full(r.shape, np.inf)  # where the shape has ended
     height[r <= shape.max_radius] = shape.profile_3d(r[r <= shape.max_radius])
     turning = case.moves_across and not material.tau
-    return Contact(
-        half_space, height, case.mu_0, material.tau, case.tau_0, transverse=settings.transverse, turning=turning
-    )
+    return Contact(half_space, height, case.friction, material.tau, transverse=settings.transverse, turning=turning)
 
 
 def path(case: SlidingContact, v_0: float, settings: Settings) -> tuple[Array, Array, float]:

@@ -54,6 +54,11 @@ class HalfSpace:
         return np.asarray((np.arange(self.n) - (self.n - 1) / 2) * self.h, dtype=np.float64)
 
     @cached_property
+    def radii(self) -> Array:
+        """Distance of the centres of the cells from the middle (n, n)."""
+        return np.asarray(np.hypot(self.places[:, None], self.places[None, :]))
+
+    @cached_property
     def size(self) -> int:
         """Of the padded grid."""
         return int(scipy.fft.next_fast_len(2 * self.n - 1, real=True))

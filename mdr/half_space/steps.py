@@ -19,6 +19,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.case.friction import Friction
 from mdr.half_space.influence import HalfSpace, X, Y, Z
 from mdr.half_space.normal import NotConverged, pressure
 from mdr.half_space.tangential import stiffness_of, traction
@@ -44,13 +45,12 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """An indenter of shape f (n, n) [m] at the centres of the cells of a half-space, friction and relaxation time."""
+    """An indenter of shape f (n, n) [m] at the centres of the cells of a half-space, its friction, relaxation time."""
 
     half_space: HalfSpace
     shape: Array
-    mu_0: float
+    friction: Friction
     tau: float = 0.0
-    tau_0: float = 0.0  #: shear strength besides [Pa]
     tolerance: float = 1e-6  #: to which forces change no more
     turns: int = 60  #: of pressure and friction in a step, at most
     transverse: bool = True  #: False: tractions and slip along the pull only, as springs have them
@@ -60,15 +60,20 @@ class Contact:
         """The greatest traction along the surface [Pa] in cells of this pressure, (n, n).
 
         A shear strength acts on the area of contact, of which cells have too much: each side of a cell at an edge that
-        is free to move takes the part RIM of it away. An edge of the shape is where its cells end.
+        is free to move takes the part RIM of it away. An edge of the shape is where its cells end. Where it acts on
+        less, on a disc, cells at its edge have the share of them that is within.
         """
-        if not self.tau_0:
-            return self.mu_0 * pressure
+        borne: Array = self.friction.mu_0 * pressure
+        if not self.friction.needs_area:
+            return borne
         touches = pressure > 0
         bound = np.pad(touches | np.isinf(self.shape), 1).astype(float)
         sides = 4 - bound[2:, 1:-1] - bound[:-2, 1:-1] - bound[1:-1, 2:] - bound[1:-1, :-2]
-        share: Array = touches * (1 - RIM * sides)
-        return self.mu_0 * pressure + self.tau_0 * share
+        share = touches * (1 - RIM * sides)
+        a = self.half_space.h * np.sqrt(share.sum() / np.pi)
+        if (strong := float(self.friction.strong_radius(a))) < a:
+            share = np.minimum(share, np.clip((strong - self.half_space.radii) / self.half_space.h + 0.5, 0.0, 1.0))
+        return np.asarray(borne + self.friction.tau_0 * share)
 
     def full_slip(self, depth: float, way: float = 1.0) -> Step:
         """The state at rest at this depth with all cells at their limit along x, to begin with; way: 1, or -1.

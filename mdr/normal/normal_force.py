@@ -183,23 +183,24 @@ def first_radius(case: SlidingContact) -> float:
     return float(case.indenter.contact_radius(max(FIRST * case.cycle.unit, case.indenter.least_depth * (1 + SAME))))
 
 
-def mean_area(case: SlidingContact) -> float:
-    """Mean area of contact [m²] over the period."""
+def mean_area(case: SlidingContact, radius: Callable[[Array], Array] = np.asarray) -> float:
+    """Mean area of contact [m²] over the period, or of the disc with this radius of that of contact."""
     if case.material.contact_arms:
         a = contact_radius(case, 2 * np.pi / N_STEPS * (np.arange(float(N_STEPS)) + 0.5))
         known, touch = followed(case), first_radius(case)
         # a flat face is there at once, whenever in a step that is
         lost = float(np.mod(known.touches - known.leaves, 2 * np.pi).sum()) / (2 * np.pi)
-        return float(np.pi * (np.mean(np.maximum(a, touch) ** 2) - touch**2 * lost))
-    return 0.5 * _integral(case, lambda phase: contact_radius(case, phase) ** 2)
+        return float(np.pi * (np.mean(radius(np.maximum(a, touch)) ** 2) - radius(np.array(touch)) ** 2 * lost))
+    return 0.5 * _integral(case, lambda phase: radius(contact_radius(case, phase)) ** 2)
 
 
 def edge_marks(case: SlidingContact, joints: bool) -> tuple[float, ...]:
-    """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth; with joints
-    also those at which pieces of a curve meet, where it is as smooth as a spline.
+    """Gaps at which the edge of the contact crosses the tip, a kink or the rim, where a(d) is not smooth, or friction
+    is not in a; with joints also those at which pieces of a curve meet, where it is as smooth as a spline.
     """
     shape, cycle = case.indenter, case.cycle
-    radii = [*(shape.joints if joints else shape.kinks), *([shape.max_radius] if np.isfinite(shape.max_radius) else [])]
+    rim = [shape.max_radius] if np.isfinite(shape.max_radius) else []
+    radii = [*(shape.joints if joints else shape.kinks), *case.friction.kinks, *rim]
     depths = {0.0, *(shape.profile_1d(np.array(radii)).tolist() if radii else ())}
     gaps, kept = {(depth - cycle.u_z0) / cycle.unit for depth in depths}, cycle.kept_gap(Rheology(case.T).response)
     return tuple(sorted(gap for gap in gaps if kept < gap < cycle.greatest))
@@ -226,9 +227,12 @@ def mean_normal_force(case: SlidingContact) -> float:
 
 def full_cof(case: SlidingContact) -> float:
     """Mean friction of full slip over the mean normal force [-], of a case of known depth: mu_0, and what a shear
-    strength of the face adds, tau_0 times the mean area of contact.
+    strength adds, tau_0 times the mean area on which it acts.
     """
-    return case.mu_0 + case.tau_0 * mean_area(case) / mean_normal_force(case) if case.tau_0 else case.mu_0
+    law = case.friction
+    if not law.needs_area:
+        return law.mu_0
+    return law.mu_0 + law.tau_0 * mean_area(case, law.strong_radius) / mean_normal_force(case)
 
 
 def _integral(case: SlidingContact, function: Callable[[Array], Array]) -> float:

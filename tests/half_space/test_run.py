@@ -1,6 +1,6 @@
 """mdr.half_space.slide and curve: friction with its errors against closed forms, and what they refuse and say."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ import mdr
 from mdr.half_space import NotConverged, friction, run, slide
 from mdr.half_space.friction import Settings, in_three_dimensions
 from mdr.half_space.run import SETTLED
-from mdr.normal.normal_force import mean_area
+from mdr.normal.normal_force import full_cof, mean_area
 
 BALL = mdr.SlidingContact(
     mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.3), 0.3, mdr.NormalOscillation(u_z0=20e-6, du_z=6e-6, omega=300.0)
@@ -92,6 +92,36 @@ def test_a_shear_strength_acts_on_the_true_area(shape, cells, off):
     found = in_three_dimensions(case, 50 * UNIT, Settings(cells=cells, steps=12, cycles=2, coupled=False))
     known = case.mu_0 * found.mean_F_z + case.tau_0 * mean_area(case)
     assert_allclose(found.mean_F_x, known, rtol=off)
+
+
+@dataclass(frozen=True)
+class Spot(mdr.Friction):
+    """A strength within the radius b alone."""
+
+    mu_0: float
+    tau_0: float
+    b: float
+
+    def strong_radius(self, a):
+        return np.minimum(a, self.b)
+
+    @property
+    def kinks(self):
+        return (self.b,)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.99, 2.0])
+def test_a_strength_of_a_spot_acts_within_it_alone(share):
+    """Beyond the contact it is that of the whole; the mean force is that of the springs' area."""
+    face = replace(OF_SPRINGS, tau_0=1e4)
+    a = float(face.indenter.contact_radius(face.u_z_max))
+    case = replace(face, friction=Spot(face.mu_0, 1e4, share * a))
+    settings = Settings(cells=33, steps=12, cycles=2, coupled=False)
+    found = in_three_dimensions(case, 50 * UNIT, settings)
+    assert_allclose(found.mean_F_x / found.mean_F_z, full_cof(case), rtol=4e-3)  # a cell is 6 % of the radius
+    if share > 1:
+        assert found.mean_F_x == in_three_dimensions(face, 50 * UNIT, settings).mean_F_x
+        assert full_cof(case) == full_cof(face)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.testing import assert_allclose
 
+import mdr
 from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Contact
 from validation.half_space.benchmarks import body
@@ -15,7 +16,7 @@ MU = 0.3
 def paraboloid(n, nu):
     """R = d = a = E* = 1."""
     half_space, r = body(n, nu, 2 * 1.06)
-    return Contact(half_space, r**2 / 2, MU)
+    return Contact(half_space, r**2 / 2, mdr.Coulomb(MU))
 
 
 def test_two_stages_are_of_second_order_where_friction_turns():
@@ -56,7 +57,7 @@ def test_the_path_by_another_way():
     """Coulomb's law cell by cell, in turns, on a dense matrix, without coupling: Gauss and Seidel's method."""
     contact = paraboloid(9, 0.3)
     body = contact.half_space
-    contact = Contact(type(body)(body.n, body.h, body.E_star, body.G_star), contact.shape, MU)
+    contact = Contact(type(body)(body.n, body.h, body.E_star, body.G_star), contact.shape, mdr.Coulomb(MU))
     n, at = body.n, np.arange(body.n)
     rows = at[:, None, None, None] - at[:, None] + n - 1, at[:, None, None] - at + n - 1
 

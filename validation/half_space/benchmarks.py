@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 
+import mdr
 from mdr.half_space.friction import BELOW, MARGIN
 from mdr.half_space.influence import HalfSpace, X, Y, Z
 from mdr.half_space.normal import pressure
@@ -107,7 +108,7 @@ def spence(n: int, nu: float, mu_0: float, steps: int = 0) -> float:
     """Radius of stick over that of contact under a normal load: flat punch, or with `steps` a paraboloid."""
     half_space, r = body(n, nu, 2 * MARGIN if steps else 2.0)
     shape = r**2 / 2 if steps else np.where(r < 1, 0.0, 1e3)
-    contact = Contact(half_space, shape, mu_0)
+    contact = Contact(half_space, shape, mdr.Coulomb(mu_0))
     step = Step(np.zeros((3, n, n)), np.zeros((3, n, n)), np.zeros((2, n, n)))
     for depth in np.linspace(0, 1, (steps or 1) + 1)[1:]:
         step = contact.step(step, float(depth), np.zeros(2), 1.0)
