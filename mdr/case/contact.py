@@ -1,12 +1,12 @@
-"""The sliding contact: indenter, material, friction, motion and pull in one frozen record.
+"""The sliding contact: indenter, material, friction, motion and pull in one frozen record; what it refuses.
 
 A script, a TOML file and a study describe the same thing, and all of them end here. Stiffnesses belong to
 the mean depth u_z0 (under an oscillating load, to the depth at which the mean load rests): k_zc = 2 E* a(u_z0),
 k_xc = 2 G* a(u_z0), and gamma = tau k in both directions, Eq. (11). E* and G* are long-time moduli; what Maxwell arms
 add is in the dynamic stiffness K_z(omega) = k_zc E*(omega)/E*.
 
-Every property is computed from the fields. Under a LoadOscillation the depth is none of them, and what depends on it is
-asked of `mdr.resolved(case)`.
+Every property is computed from the fields, in `in_motion` and `scales`. Under a LoadOscillation the depth is none of
+them, and what depends on it is asked of `mdr.resolved(case)`.
 """
 
 from __future__ import annotations
@@ -45,6 +45,9 @@ OPTIONAL = ("shake",)  #: parts that may be None
 class SlidingContact(Scales, Record, Summarised):
     """An indenter that slides on a half-space while it is shaken, in the normal direction or in the plane.
 
+    Friction is a law, ``friction=mdr.Coulomb(0.5)``, or given by its numbers: mu_0, and tau_0, the shear strength of a
+    face [Pa]. Both can be read of every case.
+
     Examples
     --------
     >>> import mdr
@@ -67,7 +70,7 @@ class SlidingContact(Scales, Record, Summarised):
     shake: Shake | None = field(default=None, metadata=facts("", "shake in the plane, besides the pull", rule=None))
     tau_0: InitVar[float] = 0.0
     friction: Friction = field(default=None, metadata=facts("", "law of friction", rule=None))  # type: ignore[assignment]
-    _law: InitVar[Friction | None] = None  # handed over by dataclasses.replace
+    _law: InitVar[Friction | None] = field(default=None, kw_only=True)  # handed over by dataclasses.replace
 
     def __post_init__(self, mu_0: Any, tau_0: Any, _law: Friction | None) -> None:
         law = law_of(self.friction, mu_0, tau_0, _law)

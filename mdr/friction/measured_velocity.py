@@ -158,7 +158,7 @@ def measure_critical_velocity(
     search = _Search(resolved(case).pulled(direction), start, half_width)
     if search.case.moves_across or search.case.always_sticks:
         return MeasuredVelocity(None, None, None, "none", ACROSS if search.case.moves_across else AT_THE_EDGE)
-    if search.case.tau_0 and not (search.case.mu_0 or search.case.edge_moves or search.case.is_shaken):
+    if not (search.case.mu_0 or search.case.strength_moves or search.case.is_shaken):
         why = "the limit of friction is constant, so that the vibration takes nothing from it"
         return MeasuredVelocity(0.0, 0.0, 0.0, "end of stick", why)
     with time_limit(limit_s):

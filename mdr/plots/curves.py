@@ -118,7 +118,7 @@ def plot_fit(fitted: Any, ax: Axes | None = None) -> Axes:
             below.set(xlabel=velocity, ylabel="measured\nless fitted")
         ax.errorbar(data.v_0 * factor, data.cof, data.error, fmt="o", color=COLOURS[1], capsize=2, label="measured")
         ax.plot(curve.v_0 * factor, curve.cof, color=COLOURS[0], label="fitted contact")
-        _limits(ax, fitted.case.mu_0, fitted.case.is_shaken)
+        _limits(ax, curve.full_cof, fitted.case.is_shaken)
         ax.set(xlabel=velocity, ylabel=r"coefficient of friction $\mu$")
         ax.label_outer()
         ax.legend()

@@ -22,7 +22,6 @@ COULOMB, STRONG = mdr.Coulomb(0.5), mdr.ShearStrength(0.2, 1e4)
 PLAIN, FACE = mdr.SlidingContact(**PARTS, mu_0=0.5), mdr.SlidingContact(**PARTS, mu_0=0.2, tau_0=1e4)
 
 
-@mdr.register
 @dataclass(frozen=True)
 class Spot(mdr.Friction):
     """A strength in the middle alone."""
@@ -38,6 +37,13 @@ class Spot(mdr.Friction):
 SPOT = Spot(0.2, 1e4, 1e-4)
 OWN = mdr.SlidingContact(**PARTS, friction=SPOT)
 COPY = pickle.loads(pickle.dumps(FACE))
+
+
+@pytest.fixture(autouse=True)
+def registered(monkeypatch):
+    """The law in case files of this module."""
+    monkeypatch.setattr("mdr.files.own_records._OWN", {})
+    mdr.register(Spot)
 
 
 def test_a_law_tells_friction_of_full_slip():

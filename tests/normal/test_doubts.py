@@ -149,18 +149,18 @@ SCALED = ("mu_0", "R", "a", "r", "tau", "u_z0", "du_z", "omega", "dF_z", "du_x")
 
 def scaled(case, part, key, factor):
     """The case with one number of it, or a profile, times the factor."""
-    record = getattr(case, part) if part else case
+    record = getattr(case, part)
     if key == "r":
         return case_at(case, {f"{part}.{one}": factor * np.array(getattr(record, one)) for one in ("r", "f")})
-    return case_at(case, {f"{part}.{key}" if part else key: factor * getattr(record, key)})
+    return case_at(case, {f"{part}.{key}": factor * getattr(record, key)})
 
 
 def slips():
     """Eighty slips: numbers a thousand times too great or too small, and frequencies given for angular ones."""
     for name, case in SOUND.items():
-        parts = {part: record for part in ("indenter", "material", "oscillation", "shake")
+        parts = {part: record for part in ("friction", "indenter", "material", "oscillation", "shake")
                  if (record := getattr(case, part)) is not None}  # fmt: skip
-        for part, record in {"": case, **parts}.items():
+        for part, record in parts.items():
             for key in SCALED:
                 if key in fields_of(record) and getattr(record, key):
                     yield from ((f"{name}: {key} times {factor:g}", case, part, key, factor) for factor in (1e3, 1e-3))
