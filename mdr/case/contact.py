@@ -73,19 +73,15 @@ class SlidingContact(Scales, Record, Summarised):
     _law: InitVar[Friction | None] = field(default=None, kw_only=True)  # handed over by dataclasses.replace
 
     def __post_init__(self, mu_0: Any, tau_0: Any, _law: Friction | None) -> None:
-        law = law_of(self.friction, mu_0, tau_0, _law)
-        instance("friction", law, Friction)
-        law = law.simplest
-        for name, value in (("friction", law), ("_law", law), ("mu_0", law.mu_0), ("tau_0", law.tau_0)):
-            object.__setattr__(self, name, value)
+        self._keep(law_of(self.friction, mu_0, tau_0, _law))
         for name, kind in KINDS.items():
             if name not in OPTIONAL or getattr(self, name) is not None:
                 instance(name, getattr(self, name), kind)
         self._refuse_what_springs_do_not_know()
         check_fields(self)
-        if law.needs_area and not self.indenter.is_body:
+        if self.friction.needs_area and not self.indenter.is_body:
             raise ValueError(
-                f"tau_0 = {law.tau_0:.6g} Pa acts on an area of contact, which {type(self.indenter).__name__} does "
+                f"tau_0 = {self.tau_0:.6g} Pa acts on an area of contact, which {type(self.indenter).__name__} does "
                 "not know: set tau_0 = 0"
             )
         if self.material.E_star == 0:
@@ -113,9 +109,28 @@ class SlidingContact(Scales, Record, Summarised):
                     f"the indenter never touches: the greatest depth of {motion} is {self.u_z_max:.6g} m; raise its "
                     "mean depth or its amplitude"
                 )
-            self.indenter.contact_radius(self.u_z_max)  # a shape that does not reach so deep says so here
+            a = float(self.indenter.contact_radius(self.u_z_max))  # a shape that does not reach so deep says so here
+            if self.friction.needs_area and not 0 <= self.friction.strong_radius(a) <= a:
+                raise ValueError(
+                    f"friction = {self.friction!r} answers strong_radius(a) = {self.friction.strong_radius(a)!r} m of "
+                    f"a contact of the radius a = {a:.6g} m: a strength acts within it, from 0 to a"
+                )
             if self.indenter.least_depth > 0:
                 self._refuse_incomplete()
+
+    def _keep(self, law: Friction) -> None:
+        """Keep the law, and its numbers beside it. One of a user's own may answer what is no friction."""
+        instance("friction", law, Friction)
+        answers("friction", law, "mu_0", "the share of the normal force that it bears in slip [-]")
+        answers("friction", law, "tau_0", "its shear strength [Pa], 0.0 for none")
+        law = law.simplest
+        if not (0 <= law.mu_0 < np.inf and 0 <= law.tau_0 < np.inf and law.mu_0 + law.tau_0 > 0):
+            raise ValueError(
+                f"friction = {law!r} answers mu_0 = {law.mu_0!r}, tau_0 = {law.tau_0!r} Pa: both must be finite, not "
+                "negative, and one of them above 0"
+            )
+        for name, value in (("friction", law), ("_law", law), ("mu_0", law.mu_0), ("tau_0", law.tau_0)):
+            object.__setattr__(self, name, value)
 
     def _summary(self) -> Summary:
         parts = [(name, getattr(self, name)) for name in KINDS]

@@ -132,7 +132,17 @@ class _OfNumbers(Friction):
     @property
     def numbers(self) -> tuple[str, ...]:
         """Both, as a strength may be set in either."""
-        return SHORTHAND
+        return fields_of(ShearStrength)
+
+    @property
+    def is_coulomb(self) -> bool:
+        """Without a strength."""
+        return not self.tau_0
+
+    @property
+    def simplest(self) -> Friction:
+        """Coulomb's law without a strength."""
+        return self if self.tau_0 or isinstance(self, Coulomb) else Coulomb(self.mu_0)
 
     def varied(self, **changes: Any) -> Friction:
         """The law of these numbers."""
@@ -159,15 +169,6 @@ class Coulomb(_OfNumbers):
         """No strength: zero [Pa]."""
         return 0.0
 
-    @property
-    def is_coulomb(self) -> bool:
-        """Always."""
-        return True
-
-    def strong_radius(self, a: ArrayLike) -> Array:
-        """Zero [m] in the shape of the radius a of contact [m]."""
-        return np.zeros_like(a, dtype=float)
-
 
 @dataclass(frozen=True)
 class ShearStrength(_OfNumbers):
@@ -192,19 +193,10 @@ class ShearStrength(_OfNumbers):
         if not self.tau_0:
             Coulomb(self.mu_0)  # refuses what is no friction at all
 
-    @property
-    def is_coulomb(self) -> bool:
-        """Only of a strength of zero."""
-        return not self.tau_0
-
-    @property
-    def simplest(self) -> Friction:
-        """Coulomb's of a strength of zero."""
-        return self if self.tau_0 else Coulomb(self.mu_0)
-
 
 UNNAMED = (ShearStrength, Coulomb)  #: laws that a file need not name: the first with a key that the last has not
-SHORTHAND = fields_of(ShearStrength)  #: numbers of friction that stand without a law
+#: numbers of friction that stand without a law
+SHORTHAND = tuple(dict.fromkeys(name for law in reversed(UNNAMED) for name in fields_of(law)))
 
 
 def of_numbers(mu_0: Any, tau_0: Any = 0.0) -> Friction:

@@ -9,7 +9,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 import mdr
-from mdr.case.friction import SHORTHAND, UNNAMED
 from mdr.case.paths import facts_at, fields_set, paths_of
 from mdr.given.vary import case_at, value_at
 
@@ -53,7 +52,6 @@ def test_a_law_tells_friction_of_full_slip():
     assert_allclose(SPOT.full(force, a), [0.0, 0.2 + 1e4 * np.pi * 1e-8])
     assert [one.needs_area for one in (COULOMB, STRONG, SPOT)] == [False, True, True]
     assert [one.is_coulomb for one in (COULOMB, STRONG, SPOT)] == [True, False, False]
-    assert_allclose(COULOMB.strong_radius(a), 0.0)
     assert_allclose(FACE.full_friction, STRONG.full(FACE.indenter.force(20e-6, FACE.material.E_star), np.sqrt(1e-7)))
     assert FACE.strength_moves
     assert not OWN.strength_moves  # the contact is wider than the spot all the time
@@ -118,6 +116,36 @@ def test_what_is_no_friction_is_refused_by_name(given, error, words):
 def test_a_strength_wants_a_shape_that_knows_its_area(law):
     with pytest.raises(ValueError, match="tau_0 = 10000 Pa acts on an area of contact, which RoughFace does not know"):
         mdr.SlidingContact(**{**PARTS, "indenter": mdr.RoughFace(1.0, 1e-6)}, friction=law)
+
+
+class Mute(mdr.Friction):
+    """A law that says nothing of its strength."""
+
+    mu_0 = 0.5
+
+
+class Wide(mdr.ShearStrength):
+    """A strength that acts beside the contact."""
+
+    def strong_radius(self, a):
+        return 2 * np.asarray(a)
+
+
+@pytest.mark.parametrize(
+    ("law", "error", "words"),
+    [
+        (mdr.Friction(), TypeError, "friction: Friction must answer mu_0, the share of the normal force"),
+        (Mute(), TypeError, r"friction: Mute must answer tau_0, its shear strength \[Pa\], 0.0 for none"),
+        (Spot(-0.1, 1e4, 1e-4), ValueError, r"answers mu_0 = -0.1, tau_0 = 10000.0 Pa: both must be finite"),
+        (Spot(0.0, 0.0, 1e-4), ValueError, "one of them above 0"),
+        (Spot(0.1, np.nan, 1e-4), ValueError, "both must be finite"),
+        (Spot(0.1, 1e4, -1e-4), ValueError, r"strong_radius\(a\) = .* m of a contact of the radius a = 0.000353"),
+        (Wide(0.1, 1e4), ValueError, "a strength acts within it, from 0 to a"),
+    ],
+)
+def test_a_law_of_ones_own_that_is_no_friction_is_refused(law, error, words):
+    with pytest.raises(error, match=words):
+        mdr.SlidingContact(**PARTS, friction=law)
 
 
 def test_no_private_argument_is_shown():
@@ -194,7 +222,3 @@ def test_a_rig_takes_a_law():
         mdr.rig(*ball, **usual)
     with pytest.raises(ValueError, match="mu_0 and friction say the same"):
         mdr.rig(*ball, 0.2, friction=STRONG, **usual)
-
-
-def test_the_shorthand_is_the_numbers_of_the_laws_without_a_name():
-    assert set(SHORTHAND) == {name for law in UNNAMED for name in mdr.tools.fields.fields_of(law)}
