@@ -33,7 +33,23 @@ SHARE = facts(
 
 
 class Friction(Record, ABC):
-    """What every law of friction must answer: mu_0, tau_0, and the radius on which the strength acts."""
+    """What every law of friction must answer: mu_0, tau_0, and the radius on which the strength acts.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> import numpy as np
+    >>> import mdr
+    >>> @dataclass(frozen=True)
+    ... class StickySpot(mdr.Friction):
+    ...     mu_0: float
+    ...     tau_0: float
+    ...     b: float
+    ...     def strong_radius(self, a):
+    ...         return np.minimum(a, self.b)
+    >>> print(f"{StickySpot(mu_0=0.2, tau_0=1e4, b=5e-4).full(force=0.5, a=1e-3):.4f} N")
+    0.1079 N
+    """
 
     if TYPE_CHECKING:  # fields of a law, or properties
 
