@@ -53,7 +53,7 @@ def default_of(field: Field[Any]) -> str:
 
 def example_of(cls: type) -> str:
     """A record of this class in one line, from the starting files; "" where there is none."""
-    known = examples.SHAPES | examples.MATERIALS | examples.MOTIONS | examples.PULLS | examples.SHAKES
+    known = examples.SHAPES | examples.MATERIALS | examples.LAWS | examples.MOTIONS | examples.PULLS | examples.SHAKES
     if cls.__name__ not in known or ">>>" in (cls.__doc__ or ""):
         return ""
     return re.sub(r"\d+(?:\.\d+)?(?:e[-+]\d+)?", lambda number: brief(number[0]), f"mdr.{known[cls.__name__]!r}")
