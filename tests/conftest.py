@@ -3,7 +3,7 @@
 import math
 import os
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: processes share the cores, and threads would wait
@@ -38,6 +38,22 @@ SHAPES = {
     "paraboloid": (mdr.Paraboloid(R=5e-3), 2),
     "r4": (mdr.PowerLaw(n=4, c=2e3), 4),
 }
+
+
+@dataclass(frozen=True)
+class Spot(mdr.Friction):
+    """A law of one's own: a strength in the middle alone, within the radius b."""
+
+    mu_0: float
+    tau_0: float
+    b: float
+
+    def strong_radius(self, a):
+        return np.minimum(a, self.b)
+
+    @property
+    def kinks(self):
+        return (self.b,)
 
 
 @pytest.fixture(autouse=True)

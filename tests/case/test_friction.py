@@ -1,11 +1,12 @@
 """Laws of friction: what they answer, and that numbers beside a case are the law that they make."""
 
 import pickle
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from inspect import signature
 
 import numpy as np
 import pytest
+from conftest import Spot
 from numpy.testing import assert_allclose
 
 import mdr
@@ -19,18 +20,6 @@ PARTS = {
 }
 COULOMB, STRONG = mdr.Coulomb(0.5), mdr.ShearStrength(0.2, 1e4)
 PLAIN, FACE = mdr.SlidingContact(**PARTS, mu_0=0.5), mdr.SlidingContact(**PARTS, mu_0=0.2, tau_0=1e4)
-
-
-@dataclass(frozen=True)
-class Spot(mdr.Friction):
-    """A strength in the middle alone."""
-
-    mu_0: float
-    tau_0: float
-    b: float
-
-    def strong_radius(self, a):
-        return np.minimum(a, self.b)
 
 
 SPOT = Spot(0.2, 1e4, 1e-4)

@@ -1,9 +1,10 @@
 """mdr.half_space.slide and curve: friction with its errors against closed forms, and what they refuse and say."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import Spot
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
@@ -92,22 +93,6 @@ def test_a_shear_strength_acts_on_the_true_area(shape, cells, off):
     found = in_three_dimensions(case, 50 * UNIT, Settings(cells=cells, steps=12, cycles=2, coupled=False))
     known = case.mu_0 * found.mean_F_z + case.tau_0 * mean_area(case)
     assert_allclose(found.mean_F_x, known, rtol=off)
-
-
-@dataclass(frozen=True)
-class Spot(mdr.Friction):
-    """A strength within the radius b alone."""
-
-    mu_0: float
-    tau_0: float
-    b: float
-
-    def strong_radius(self, a):
-        return np.minimum(a, self.b)
-
-    @property
-    def kinks(self):
-        return (self.b,)
 
 
 @pytest.mark.parametrize("share", [0.3, 0.99, 2.0])
