@@ -229,7 +229,7 @@ def law_of(friction: Any, mu_0: Any, tau_0: Any, known: Friction | None = None) 
     usual = {"mu_0": None, "tau_0": 0.0} if known is None else {name: getattr(known, name) for name in given}
     changed = {name: value for name, value in given.items() if value is not usual[name] and value != usual[name]}
     if known is not None and friction is known:
-        return known.varied(**changed)
+        return known.varied(**changed) if changed else known
     if friction is None:
         if mu_0 is None:
             raise TypeError("friction is missing: give mu_0, or a law such as friction=mdr.Coulomb(mu_0)")
