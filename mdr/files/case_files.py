@@ -129,15 +129,14 @@ def read_tables(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Table
     faults = [_unknown_top(key, value, beside) for key, value in content.items() if key not in (*_TABLES, *SHORTHAND)]
     tables = {**_meant(content), **content}
     tables |= {"oscillation": _still(tables["oscillation"])} if {"shake", "oscillation"} <= set(tables) else {}
-    asked = [name for name in _TABLES if name in tables or name in HARMLESS]
+    asked = [name for name in _TABLES if name != "friction" and (name in tables or name in HARMLESS)]
     described = {name: tried(_TABLES[name].read, tables.get(name)) for name in asked}
+    faults += [fault for _, wrong in described.values() for fault in wrong]
     described["friction"] = tried(_law, {key: content[key] for key in SHORTHAND if key in content}, tables)
     sound = {name: found for name, (found, wrong) in described.items() if not wrong}
     held = {key: value for _, own in sound.values() for key, value in own.items()}
-    refused = described["friction"][1]
-    faults += [fault for name, (_, wrong) in described.items() if name != "friction" for fault in wrong]
     parts = {name: part for name, (part, _) in sound.items()}
-    return Tables(parts, held, described.keys() - sound.keys(), faults, refused)
+    return Tables(parts, held, described.keys() - sound.keys(), faults, described["friction"][1])
 
 
 def _law(numbers: Mapping[str, Any], tables: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
