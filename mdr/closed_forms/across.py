@@ -6,12 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact, require_case
+from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import peak
+from mdr.case.domain import COULOMB, RIGID, Condition, holds_for
 from mdr.indenters.base import Indenter
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import Array
 from mdr.tools.checks import instance, not_negative, positive
+
+ACROSS_ALONE = Condition(
+    "shake",
+    "a shake across the pull alone, at a constant depth",
+    lambda case: case.moves_across and not case.way.any() and not case.cycle.harmonics.any(),
+)
 
 
 def held_across(indenter: Indenter, d: float, d_y: float, *, surface: bool = False) -> float:
@@ -69,9 +76,9 @@ def held_across(indenter: Indenter, d: float, d_y: float, *, surface: bool = Fal
     return _on_surface(indenter, d, d - d_y) / _on_surface(indenter, d, d) if d_y < d else 0.0
 
 
+@holds_for(COULOMB, RIGID, ACROSS_ALONE, of=resolved, instead="cof_curve(case, [0])")
 def static_across(case: SlidingContact, surface: bool = False) -> float:
     """Static friction [-] of such a contact, by `held_across`, on any linear material and for any shake across."""
-    case = across_alone(case)
     return case.mu_0 * held_across(case.indenter, case.cycle.u_z0, extent_across(case), surface=surface)
 
 
@@ -80,27 +87,6 @@ def extent_across(case: SlidingContact) -> float:
     n_omega = case.omega * np.arange(1, case.way_across.size + 1)
     borne = case.way_across * np.asarray(case.material.dynamic_modulus(n_omega)) / case.material.E_star
     return 0.5 * (peak(borne) + peak(-borne)) / (case.mu_0 * case.material.mindlin_ratio)
-
-
-def is_across_alone(case: SlidingContact) -> bool:
-    """Whether a case of known depth is pulled rigidly, and nothing moves besides but across."""
-    still = not case.way.any() and not case.cycle.harmonics.any()
-    return case.pull.is_rigid and case.moves_across and still
-
-
-def across_alone(case: SlidingContact) -> SlidingContact:
-    """The case, resolved, if it is pulled rigidly at a constant depth and shaken across alone; else an error."""
-    case = pulled_rigidly(case)
-    if not is_across_alone(case):
-        raise ValueError("this law is that of a constant depth and a shake across the pull alone")
-    return case
-
-
-def pulled_rigidly(case: SlidingContact) -> SlidingContact:
-    """The case, resolved, if it is pulled rigidly; else an error."""
-    if not require_case(case).pull.is_rigid:
-        raise TypeError(f"this law is that of a rigid pull, got {case.pull!r}")
-    return resolved(case)
 
 
 def _by_springs(indenter: Indenter, d: float, d_y: float) -> float:

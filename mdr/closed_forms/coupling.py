@@ -17,9 +17,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from mdr.case.contact import SlidingContact, as_given, require_case
-from mdr.case.coulomb import of_coulomb
-from mdr.case.motion import NormalOscillation
+from mdr.case.contact import SlidingContact
+from mdr.case.domain import ABOVE_ZERO, COULOMB, HARMONIC, NO_ARMS, RIGID, UNSHAKEN, Condition, holds_for
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.tools.arrays import EXACT
@@ -37,9 +36,10 @@ class LossLaw(NamedTuple):
 
 
 LOSS = LossLaw(a=0.210, b=0.313, c=0.122, flat=1.1, rub=3.2, beta=0.5)  #: from validation/coupling_law.py
+WITH_COUPLING = "mdr.half_space.slide, which has coupling"
 
 
-@of_coulomb
+@holds_for(COULOMB, instead=WITH_COUPLING)
 def radial_rub(case: SlidingContact) -> float:
     """Ratio lambda [-]: greatest radial velocity of the surface at the edge of the contact over that of Eq. (1).
 
@@ -68,11 +68,28 @@ def radial_rub(case: SlidingContact) -> float:
     >>> print(f"{mdr.laws.radial_rub(case):.3f}")
     0.374
     """
-    material = require_case(case).material
+    material = case.material
     return 2 * abs(material.dundurs_beta) / (math.pi * case.mu_0 * material.mindlin_ratio)
 
 
-@of_coulomb
+computed = holds_for(
+    COULOMB,
+    UNSHAKEN,
+    RIGID,
+    HARMONIC,
+    ABOVE_ZERO,
+    NO_ARMS,
+    Condition(
+        "material.dundurs_beta",
+        f"abs(beta) <= {LOSS.beta}",
+        lambda case: abs(case.material.dundurs_beta) <= LOSS.beta * (1 + EXACT),
+    ),
+    Condition("mu_0", f"lambda = 2 abs(beta)/(pi mu_0 kappa) <= {LOSS.rub}", lambda case: radial_rub(case) <= LOSS.rub),
+    instead=WITH_COUPLING,
+)
+
+
+@computed
 def coupled_critical_velocity(case: SlidingContact) -> float:
     """Velocity [m/s] up to which about something sticks, with normal-tangential coupling.
 
@@ -108,11 +125,10 @@ def coupled_critical_velocity(case: SlidingContact) -> float:
     >>> print(f"{mdr.laws.coupled_critical_velocity(case):.3g} m/s, not {mdr.critical_velocity(case):.3g} m/s")
     0.000401 m/s, not 0.000291 m/s
     """
-    _require_known(case)
     return (1 + radial_rub(case)) * full_slip_critical_velocity(case)
 
 
-@of_coulomb
+@computed
 def coupling_loss(case: SlidingContact) -> float:
     """Error of the springs [-] that normal-tangential coupling makes: how much of mu_0 they are too high by, at most.
 
@@ -148,32 +164,6 @@ def coupling_loss(case: SlidingContact) -> float:
     >>> print(f"{mdr.laws.coupling_loss(case):.2g}")
     0.0051
     """
-    _require_known(case)
     rub, material = radial_rub(case), case.material
     share = LOSS.a * rub**2 / (LOSS.b + rub) + LOSS.c * material.dundurs_beta**2 / material.mindlin_ratio
     return share * (1 - static_cof(case) / case.mu_0)
-
-
-def unlike(case: SlidingContact) -> str:
-    """What sets a case apart from those that were computed in three dimensions; empty for none."""
-    case = as_given(case)
-    if case.is_shaken:
-        return "a shake in the plane"
-    if not case.pull.is_rigid:
-        return f"a {type(case.pull).__name__}, not a rigid pull"
-    if not isinstance(case.oscillation, NormalOscillation):
-        return f"a {type(case.oscillation).__name__}, not a harmonic depth"
-    if not case.oscillation.u_z0 > 0:
-        return f"u_z0 = {case.oscillation.u_z0:g} m, not above 0"
-    if case.material.contact_arms:
-        return "a material with arms, neither elastic nor Kelvin"
-    if not abs(case.material.dundurs_beta) <= LOSS.beta * (1 + EXACT):
-        return f"Dundurs' beta = {case.material.dundurs_beta:.3g}, beyond {LOSS.beta}"
-    if not radial_rub(case) <= LOSS.rub:
-        return f"lambda = {radial_rub(case):.3g}, beyond {LOSS.rub}"
-    return ""
-
-
-def _require_known(case: SlidingContact) -> None:
-    if what := unlike(case):
-        raise ValueError(f"what coupling does was not computed for this case: {what}")

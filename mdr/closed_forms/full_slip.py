@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import least_of
-from mdr.closed_forms.across import is_across_alone, static_across
+from mdr.case.domain import domain_of
+from mdr.closed_forms.across import static_across
 from mdr.closed_forms.held_body import CLOSE, held_forward
-from mdr.closed_forms.shaken_pull import ShakenPull, average_friction, has_closed_form
+from mdr.closed_forms.shaken_pull import CLOSED_FORM, ShakenPull, average_friction
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.normal_force import followed, full_cof, known_harmonics, mean_normal_force, normal_force
 from mdr.normal.resolved import resolved
@@ -70,18 +71,13 @@ def static_cof(case: SlidingContact) -> float:
     0.322
     """
     case = resolved(case)
-    if case.moves_across and is_across_alone(case) and not case.tau_0:
+    if case in domain_of(static_across):
         return static_across(case)
     if case.is_shaken:
         end = held_forward(case)
         if end is not None and end.error <= CLOSE * case.mu_0:
             return end.cof
-        if case.tau_0 or not has_closed_form(case):
-            raise ValueError(
-                "the static limit of a contact that is shaken in the plane is known in closed form under a rigid pull, "
-                "along the pull on an elastic or Kelvin material, across it at a constant depth, without tau_0: "
-                "ask cof_curve(case, [0]), or blocked_cof(case)"
-            )
+        CLOSED_FORM.seen(case, "static_cof of a contact that is shaken in the plane")
         return case.mu_0 * float(average_friction(ShakenPull.of(case), [0.0])[0][0])
     if _slips_at_any_pull(case):
         return full_cof(case)
@@ -92,10 +88,8 @@ def static_cof(case: SlidingContact) -> float:
         least = max(least_of(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
         least = float(case.indenter.force(kept, case.material.E_star))
-    held = 0.0
-    if case.tau_0 and case.keeps_contact:
-        held = case.tau_0 * np.pi * float(case.indenter.contact_radius(kept)) ** 2
-    return (case.mu_0 * least + held) / mean_normal_force(case)
+    a = float(case.indenter.contact_radius(kept)) if case.friction.needs_area and case.keeps_contact else 0.0
+    return float(case.friction.full(least, a)) / mean_normal_force(case)
 
 
 def _slips_at_any_pull(case: SlidingContact) -> bool:

@@ -31,12 +31,14 @@ import numpy as np
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import at_instants, least_of
+from mdr.case.domain import COULOMB, ON_SPRING, SHAKEN, Domain
 from mdr.normal.load_control import static_depth
 from mdr.normal.normal_force import mean_normal_force, normal_force
 from mdr.tools.arrays import EXACT, Array
 
 INSTANTS = 4096  #: of a period
 CLOSE = 1e-3  #: error, over mu_0, up to which this is asked first
+HOLDING = Domain((COULOMB, ON_SPRING, SHAKEN), instead="holding_band")
 
 
 class Held(NamedTuple):
@@ -49,11 +51,11 @@ class Held(NamedTuple):
 
 def held_forward(case: SlidingContact) -> Held | None:
     """The greatest mean force, over the mean load, that a body shaken in the plane holds; None where it holds none, and
-    where something else than Coulomb's friction of a body on a spring is asked about.
+    outside of HOLDING.
 
     case: of known depth.
     """
-    if case.pull.is_rigid or not case.is_shaken or case.tau_0:
+    if case not in HOLDING:
         return None
     phase = 2 * np.pi * np.arange(INSTANTS) / INSTANTS
     limit = case.mu_0 * normal_force(case, phase)

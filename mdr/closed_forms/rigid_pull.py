@@ -48,8 +48,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.case.contact import SlidingContact, require_case
-from mdr.case.coulomb import of_coulomb
+from mdr.case.contact import SlidingContact
+from mdr.case.domain import COULOMB, HARMONIC, NO_ARMS, RIGID, UNSHAKEN, holds_for
 from mdr.indenters.mapping.quadrature import Rule, double_exponential
 from mdr.normal.kelvin_edges import contact_edge, edge_rate, kept_gap, touching_phase
 from mdr.normal.normal_force import edge_marks, mean_normal_force
@@ -58,6 +58,7 @@ from mdr.tools.checks import finite_array
 from mdr.tools.records import ArrayRecord
 
 LEAST_PULL = 1e-15  #: velocity, over mu_0 kappa omega du_z, below which a period less its stick is lost in rounding
+of_a_rigid_pull = holds_for(COULOMB, RIGID, HARMONIC, NO_ARMS, UNSHAKEN, instead="slide or cof_curve")
 AT_ONCE = 128  #: numbers that an array operation takes hardly longer for than for one
 
 
@@ -90,13 +91,12 @@ class _Stick:
     slope: Array  # d end/d sigma
 
 
-@of_coulomb
+@of_a_rigid_pull
 def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     """Average COF under a rigid pull at velocities v_0 > 0 [m/s], any shape; (*) above.
 
-    Raises TypeError for a case with another pull, ValueError for velocities that are not positive and finite, or below
-    1e-15 of mu_0 kappa omega du_z, and for a depth that is not harmonic, a material with arms, a shake or a shear
-    strength.
+    Raises ValueError for velocities that are not positive and finite, or below 1e-15 of mu_0 kappa omega du_z, and
+    OutsideDomain for another pull, depth, material or law of friction, and for a shake.
 
     Examples
     --------
@@ -107,7 +107,6 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     >>> print(average_friction(case, [0.3e-3, 0.6e-3]).cof.round(4))
     [0.3672 0.3976]
     """
-    case = _rigid(case)
     v_0 = finite_array("v_0", v_0, "m/s")
     if np.any(v_0 <= 0):
         raise ValueError(f"v_0 must be positive, got {float(v_0.min())!r} m/s; its limit 0 is static_cof(case)")
@@ -126,7 +125,7 @@ def average_friction(case: SlidingContact, v_0: ArrayLike) -> RigidPullFriction:
     )
 
 
-@of_coulomb
+@of_a_rigid_pull
 def near_critical(case: SlidingContact) -> Asymptote:
     """Leading term of 1 - cof/mu_0 in 1 - v_0/v_c, if the centre presses at phase 3 pi/2; else ValueError.
 
@@ -140,7 +139,6 @@ def near_critical(case: SlidingContact) -> Asymptote:
     >>> print(f"{law.coefficient:.3g} times the power {law.power:.3g}")
     0.213 times the power 2
     """
-    case = _rigid(case)
     k_zc, F_N = _stiffness(case, contact_edge(np.array(1.5 * np.pi), case.T)), mean_normal_force(case)
     share = float(k_zc) * case.cycle.unit / F_N
     if share == 0:
@@ -152,7 +150,7 @@ def near_critical(case: SlidingContact) -> Asymptote:
     return Asymptote(1.5, 2 * np.sqrt(2) * case.T / (3 * np.pi) * share)
 
 
-@of_coulomb
+@of_a_rigid_pull
 def small_velocity(case: SlidingContact) -> Asymptote:
     """Leading term of (cof - static cof)/mu_0 in v_0/(mu_0 kappa omega du_z); ValueError for a Kelvin
     contact that is lost entirely, whose term is not known.
@@ -167,7 +165,6 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     >>> print(f"{law.coefficient:.3g} times the power {law.power:.3g}")
     0.895 times the power 1
     """
-    case = _rigid(case)
     cycle, T, F_N = case.cycle, case.T, mean_normal_force(case)
     R = -kept_gap(T)
     core = float(_stiffness(case, np.array(-R))) * cycle.unit / F_N
@@ -178,17 +175,6 @@ def small_velocity(case: SlidingContact) -> Asymptote:
     marks = np.array([0.0, *np.arccos(edge_marks(case, joints=True))[::-1], np.pi])
     total = double_exponential().integral(lambda phi: phi * _stiffness(case, np.cos(phi)), marks)
     return Asymptote(1.0, 2 / np.pi * cycle.unit / F_N * total)
-
-
-def _rigid(case: SlidingContact) -> SlidingContact:
-    if not require_case(case).pull.is_rigid:
-        raise TypeError(f"the closed form is that of a rigid pull, got {case.pull!r}")
-    if not case.is_of_the_paper or case.is_shaken:
-        raise ValueError(
-            "the closed form is that of a harmonic depth on an elastic or Kelvin material, got "
-            f"{case.oscillation!r} on {case.material!r}, shake = {case.shake!r}: use cof_curve or slide"
-        )
-    return case
 
 
 def _stiffness(case: SlidingContact, gap: Array) -> Array:

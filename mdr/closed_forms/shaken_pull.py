@@ -45,6 +45,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, lost_in_digits, turns
+from mdr.case.domain import COULOMB, GIVEN_DEPTH, NO_ARMS, RIGID, Condition, Domain
 from mdr.indenters.base import Indenter
 from mdr.indenters.mapping.inversion import invert
 from mdr.tools.arrays import EPS, EXACT, Array, beyond
@@ -69,7 +70,7 @@ class ShakenPull(ArrayRecord):
 
     @classmethod
     def of(cls, case: SlidingContact) -> ShakenPull:
-        """The numbers of a case that `has_closed_form`, of known depth."""
+        """The numbers of a case in CLOSED_FORM."""
         cycle = case.cycle
         way = case.way / (case.mu_0 * case.material.mindlin_ratio * cycle.unit)
         return cls(case.indenter, cycle.u_z0, cycle.unit, cycle.harmonics, way, case.T)
@@ -104,14 +105,25 @@ class ShakenPull(ArrayRecord):
         return Harmonics(T, Z, X, lag * Z, lag * sides, T * rate * sides, rates, turns, _turns(lag * Z))
 
 
-def has_closed_form(case: SlidingContact) -> bool:
-    """Whether friction of a case is known here: a rigid pull, no arms, a depth and a way of not too many harmonics."""
-    known = case.oscillation.knows_depth and case.pull.is_rigid and not case.material.contact_arms
-    # with more harmonics of depth and way a run is as fast
-    if not known or case.tau_0 or case.moves_across or max(case.cycle.cos.size, case.way.size) > 64:
-        return False
+def _resolves_springs(case: SlidingContact) -> bool:
+    """Whether the digits of the way leave those of the springs."""
     reach = case.mu_0 * case.material.mindlin_ratio * case.cycle.unit
-    return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)  # else its digits hide the springs'
+    return bool(np.abs(case.way).max(initial=0.0) * EPS <= TOLERANCE * reach)
+
+
+#: cases whose friction is known here; with more harmonics a run is as fast
+CLOSED_FORM = Domain(
+    (
+        COULOMB,
+        RIGID,
+        NO_ARMS,
+        GIVEN_DEPTH,
+        Condition("shake", "a shake along the pull alone", lambda case: not case.moves_across),
+        Condition("cycle", "at most 64 harmonics", lambda case: max(case.cycle.cos.size, case.way.size) <= 64),
+        Condition("shake", "a way that rounding leaves the deflection of springs", _resolves_springs),
+    ),
+    instead="cof_curve(case, [0]), or blocked_cof(case)",
+)
 
 
 def average_friction(pull: ShakenPull, v: ArrayLike) -> tuple[Array, Array, Array]:

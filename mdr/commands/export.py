@@ -9,7 +9,7 @@ from pathlib import Path
 from textwrap import shorten
 
 import mdr
-from mdr.case.coulomb import require_coulomb
+from mdr.case.domain import COULOMB, Domain
 from mdr.commands.arguments import plain_number, whole_number
 from mdr.commands.output import WrongInput, answer, complain
 from mdr.commands.written import require_free, write
@@ -38,7 +38,7 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     if path.suffix not in (".h", ".fmu"):
         raise WrongInput(f"-o {path}: the file must end in .h, a C header, or .fmu, a unit for co-simulation")
     name = path.stem
-    require_coulomb(case, "the element")
+    Domain((COULOMB,), "mdr slide or mdr curve").seen(case, "ContactElement")
     if not NAME.fullmatch(name):
         raise WrongInput(f"-o {path}: {name!r} must be a word for names in C: at most 40 letters, digits and _")
     require_free([path])

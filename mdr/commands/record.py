@@ -8,8 +8,8 @@ from functools import partial
 from typing import Any
 
 import mdr
-from mdr.case.coulomb import require_coulomb
 from mdr.case.displacement import inner_part
+from mdr.case.domain import COULOMB, Domain
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_file, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, picked
 from mdr.commands.written import add_output, make_folder, write_found
@@ -42,7 +42,7 @@ def add_options_of_record(command: argparse.ArgumentParser) -> None:
 def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
     case = mdr.read_case(args.case)
-    require_coulomb(case, "slide_record")
+    Domain((COULOMB,), "mdr slide or mdr curve").seen(case, "slide_record")
     make_folder(args)
     recorded = read_file(mdr.read_record, args.motion, args)
     try:

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import mdr
+from mdr.case.domain import domain_of
 from mdr.case.doubts import edge, frequencies
-from mdr.closed_forms.across import is_across_alone
 from mdr.closed_forms.critical_velocity import NEARLY, formula_of
 from mdr.closed_forms.laws.across import full_across
-from mdr.closed_forms.laws.strength import has_edge_law
 from mdr.commands.output import Told, answer, text_of, values_of, velocity_text
 from mdr.normal.normal_force import full_cof, mean_normal_force
 from mdr.tools.summary import number
@@ -77,7 +76,7 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         full = f"; in full slip {full_cof(known):.6g}" if case.tau_0 else ""
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}{full}"
         told.append(told_number("static_cof", mdr.static_cof(case), "static COF", "-", rest))
-        if has_edge_law(known):
+        if known in domain_of(mdr.laws.velocity_of_share):
             back, most = mdr.laws.velocity_of_share(known, 1 - NEARLY), f"{100 - 100 * NEARLY:g} %"
             half_space = mdr.laws.velocity_of_share(known, 1 - NEARLY, half_space=True)
             meaning = f"velocity from which at least {most} of full friction is back; {half_space:.3g} on a half-space"
@@ -93,7 +92,7 @@ def _across(case: mdr.SlidingContact) -> list[Told]:
         *(Told(key, math.inf) for key in ("v_c_back", "full_slip", "full_slip_back")),
         told_number("fastest_across", case.fastest_across, "across", "m/s", "greatest velocity of the shake across"),
     ]
-    if is_across_alone(known) and not case.tau_0:
+    if known in domain_of(full_across):
         full, most = full_across(known, NEARLY), f"{100 - 100 * NEARLY:g} %"
         meaning = f"velocity from which friction is at least {most} of mu_0 (mdr.laws.lost_across)"
         if math.isfinite(full):
@@ -151,10 +150,8 @@ def ends_of(case: mdr.SlidingContact) -> list[Told]:
     """The ends of the characteristic of a contact shaken in the plane, in words what is not known; none of others."""
     if not case.is_shaken:
         return []
-    if case.tau_0:
-        return [
-            Told("holding_band", None, "band", "not known", "at rest, with a shear strength: by Coulomb's law alone")
-        ]
+    if case not in domain_of(mdr.holding_band):
+        return [Told("holding_band", None, "band", "not known", "at rest: it is known for Coulomb's friction alone")]
     from mdr.friction.shaken import holder_of
 
     standing = f"mean F_x over mean F_z at rest, under {holder_of(case)}"

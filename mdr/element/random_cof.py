@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.case.contact import SlidingContact, require_case
-from mdr.case.coulomb import of_coulomb
+from mdr.case.contact import SlidingContact
+from mdr.case.domain import COULOMB, GIVEN_DEPTH, NO_SHAKE, RIGID, holds_for
 from mdr.case.spectrum import Spectrum
 from mdr.element.contact_element import relaxed, springs_of
 from mdr.element.kernels import follow
@@ -96,7 +96,7 @@ class RandomCof(Summarised, Tabled, ArrayRecord):
         return plot_random_cof(self, ax)
 
 
-@of_coulomb
+@holds_for(COULOMB, RIGID, NO_SHAKE, GIVEN_DEPTH, instead="slide_record, or ContactElement, for a history of your own")
 def random_cof(
     case: SlidingContact,
     spectrum: Spectrum,
@@ -156,7 +156,6 @@ def random_cof(
     >>> print(found.cof.round(2))
     [0.43 0.49]
     """
-    depth = _mean_depth(case)
     instance("spectrum", spectrum, Spectrum)
     velocities = np.array(positive_array("v_0", v_0, "m/s"), ndmin=1)
     if velocities.ndim != 1 or not velocities.size:
@@ -167,7 +166,7 @@ def random_cof(
     found, coarse = np.empty((2, n, velocities.size, 2))
     few: dict[int, Array] = {}  # of those that touch, with half of the springs
     for k in progress(range(n), "random_cof", "realisations"):
-        u_z = depth + spectrum.realisation(n_t, dt, seed, k)
+        u_z = case.cycle.u_z0 + spectrum.realisation(n_t, dt, seed, k)
         found[k] = _impulses(case, u_z, dt, velocities, springs)
         coarse[k] = _impulses(case, u_z[::2], 2 * dt, velocities, springs)
         if found[k, 0, 1] > 0 and len(few) < LEAST_REALISATIONS:
@@ -198,21 +197,6 @@ def _cof(impulses: Array, axis: int = 0) -> Array:
     total = impulses.sum(axis=axis)
     with np.errstate(invalid="ignore"):
         return np.asarray(total[..., 0] / total[..., 1])
-
-
-def _mean_depth(case: SlidingContact) -> float:
-    """Mean depth [m] of a case that may vibrate at random."""
-    if not require_case(case).pull.is_rigid or case.shake is not None:
-        raise ValueError(
-            f"random vibration is that of the depth under a rigid pull, got pull = {case.pull!r}, shake = "
-            f"{case.shake!r}: drop them, or follow a history of your own with slide_record or ContactElement"
-        )
-    if not case.oscillation.knows_depth:
-        raise ValueError(
-            "random vibration is that of a depth about its mean, and the case is under a load: give a "
-            "NormalOscillation of the mean depth, such as static_depth(indenter, material, load)"
-        )
-    return case.cycle.u_z0
 
 
 def _samples(case: SlidingContact, spectrum: Spectrum, slowest: float) -> tuple[int, float]:

@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
+from mdr.case.domain import domain_of
 from mdr.case.friction import named_full
-from mdr.closed_forms.across import is_across_alone
+from mdr.closed_forms.across import static_across
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.held_body import CLOSE, held_forward
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.closed_forms.shaken_pull import ShakenPull, has_closed_form
+from mdr.closed_forms.shaken_pull import CLOSED_FORM, ShakenPull
 from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
 from mdr.march.periodic.steady import BUDGET, Resolution, accuracy_of
 from mdr.march.periodic.theorems import disordered
@@ -225,7 +226,7 @@ class _Asked:
         require_knobs(**knobs)
         if method not in (None, "march"):
             raise ValueError(f'method must be None or "march", got {method!r}')
-        self.is_closed = method is None and has_closed_form(case)
+        self.is_closed = method is None and case in CLOSED_FORM
         self.counted = _not_too_slow(case, self.v_0, self.is_closed)  #: zero stands for the limit at rest
         by_runs = partial(_runs, accuracy=accuracy, **knobs)
         self.friction: Friction = _closed_form if self.is_closed else by_runs
@@ -368,7 +369,7 @@ def _slow(case: SlidingContact, friction: Friction, is_held: bool) -> Point:
     friction falls like a power of the velocity between 2/3 and 1, of a body that is held from 1/2 on.
     """
     if case.moves_across:
-        if is_across_alone(case) and not case.tau_0:
+        if case in domain_of(static_across):
             return static_cof(case), EXACT * case.mu_0, True, 1.0, "", 0.0
         # shaken across, a contact comes to rest by ever smaller slips: less slow
         return _slow_limit(friction(case, np.array([1e-3, 1e-2]) * case.pace), is_held)
@@ -384,7 +385,7 @@ def _slow(case: SlidingContact, friction: Friction, is_held: bool) -> Point:
 
 def _closed_form(case: SlidingContact, v_0: Array) -> Columns:
     """Friction of a case that has a closed form."""
-    if case.is_of_the_paper and not case.is_shaken:  # good to rounding, and several times faster than event by event
+    if case in domain_of(average_friction):  # good to rounding, and several times faster than event by event
         known = average_friction(case, v_0)
         return Columns.exact(known.cof, known.cof_error, known.stick_share)
     cof, error, sticks = shaken_friction(ShakenPull.of(case), v_0 / case.unit_velocity)
@@ -430,4 +431,4 @@ def friction_without_bound(case: SlidingContact, v_0: Array, n_springs: int, ste
         return Columns.exact(cof, 0 * cof, 0 * cof)
 
     case = resolved(case)
-    return _both_ways(case, v_0, _closed_form if has_closed_form(case) else quick).cof
+    return _both_ways(case, v_0, _closed_form if case in CLOSED_FORM else quick).cof

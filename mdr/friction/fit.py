@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.closed_forms.shaken_pull import has_closed_form
+from mdr.closed_forms.shaken_pull import CLOSED_FORM
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
 from mdr.friction.friction_data import FrictionData
@@ -271,7 +271,7 @@ class _Model:
         x = np.array([one.first for one in self.free])
         first = resolved(self.case)
         most = default_springs(first), default_steps(first)
-        shares = (1,) if has_closed_form(first) else (4, 2, 1)
+        shares = (1,) if first in CLOSED_FORM else (4, 2, 1)
         sizes = list(dict.fromkeys((max(most[0] // k, LEAST), max(most[1] // k, LEAST)) for k in shares))
         for size, finer in zip(sizes, [*sizes[1:], None], strict=True):
             self.size, self._at = size, lru_cache(maxsize=2)(self._deviations)  # the same of all, or curves would jump

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.coulomb import of_coulomb
+from mdr.case.domain import COULOMB, holds_for
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.held_body import held_forward
-from mdr.closed_forms.shaken_pull import has_closed_form
+from mdr.closed_forms.shaken_pull import CLOSED_FORM
 from mdr.friction.cof_curve import cof_curve
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
 from mdr.march.result.slide import slide
@@ -24,6 +24,8 @@ from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, SAME, beyond
 from mdr.tools.checks import finite
 from mdr.tools.memoise import remembered
+
+at_rest = holds_for(COULOMB, of=resolved, instead="cof_curve, at v_0 = 0 too")
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class HoldingBand:
         return self.low - self.error <= finite("load", load) <= self.high + self.error
 
 
-@of_coulomb
+@at_rest
 def holding_band(case: SlidingContact) -> HoldingBand:
     """Loads [-], mean F_x over mean F_z, that a contact holds at rest, neither creeping nor driving.
 
@@ -94,7 +96,6 @@ def holding_band(case: SlidingContact) -> HoldingBand:
     >>> print(f"{band.low:.4f} to {band.high:.4f}")  # springs slip at 12e-6 m, of which the shake takes 5e-6
     -0.2333 to 0.2333
     """
-    case = resolved(case)
     return band_of_pull(case if case.is_shaken_at_pull else replace(case, pull=RigidPull()))
 
 
@@ -104,7 +105,7 @@ def holder_of(case: SlidingContact) -> str:
 
 
 @remembered(maxsize=16)  # a command asks for it more than once
-@of_coulomb
+@at_rest
 def band_of_pull(case: SlidingContact) -> HoldingBand:
     """Both limits of friction at rest of a case of known depth, under its own pull; ValueError as in `holding_band`."""
     accuracy = LEAST_ACCURATE if case.moves_across else BUDGET  # where two slow runs tell the limit, no more is known
@@ -119,7 +120,7 @@ def band_of_pull(case: SlidingContact) -> HoldingBand:
     return HoldingBand(low=min(low, high), high=max(low, high), error=error)
 
 
-@of_coulomb
+@at_rest
 def blocked_cof(case: SlidingContact) -> float:
     """Mean F_x over mean F_z [-] of a contact whose pull does not move, where it is one number.
 
@@ -149,7 +150,7 @@ def blocked_cof(case: SlidingContact) -> float:
     >>> print(f"{mdr.blocked_cof(case):.3f}")
     -0.221
     """
-    band = band_of_pull(resolved(case))
+    band = band_of_pull(case)
     if not band.is_one_number:
         raise ValueError(
             f"the contact holds any mean F_x over mean F_z between {band.low:.6g} and {band.high:.6g}: the force at "
@@ -158,7 +159,7 @@ def blocked_cof(case: SlidingContact) -> float:
     return float(beyond(EXACT * case.mu_0, 0.5 * (band.low + band.high)))
 
 
-@of_coulomb
+@at_rest
 def no_load_velocity(case: SlidingContact) -> float:
     """Velocity [m/s] at which a shaken contact runs that nothing holds back: where the mean F_x is zero.
 
@@ -188,7 +189,7 @@ def no_load_velocity(case: SlidingContact) -> float:
     >>> print(f"{mdr.no_load_velocity(case):.3g} m/s")
     0.00966 m/s
     """
-    return _free(resolved(case))
+    return _free(case)
 
 
 @remembered(maxsize=16)
@@ -213,13 +214,13 @@ def _free(case: SlidingContact) -> float:
         low, high = high, 2 * high
     from scipy.optimize import brentq
 
-    close = SAME if has_closed_form(ahead) else BUDGET / 10  # a run knows its friction to no more than BUDGET
+    close = SAME if ahead in CLOSED_FORM else BUDGET / 10  # a run knows its friction to no more than BUDGET
     return side * float(brentq(lambda v_0: _cof(ahead, v_0), low, high, xtol=close * case.pace, rtol=close))
 
 
 def _cof(case: SlidingContact, v_0: float) -> float:
     """Friction at one velocity, that of a settled run."""
-    if has_closed_form(case):
+    if case in CLOSED_FORM:
         return float(cof_curve(case, [v_0], accuracy=MOST_ACCURATE).cof[0])
     run = slide(case, v_0)
     if not run.settled:

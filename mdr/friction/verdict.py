@@ -13,13 +13,14 @@ import numpy as np
 
 from mdr import half_space
 from mdr.case.contact import SlidingContact
-from mdr.closed_forms.across import is_across_alone, static_across
-from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub, unlike
+from mdr.case.domain import OutsideDomain, domain_of
+from mdr.closed_forms.across import static_across
+from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub
 from mdr.closed_forms.critical_velocity import NEARLY, critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
-from mdr.closed_forms.laws.strength import full_slip_of_half_space, has_edge_law, velocity_of_share
+from mdr.closed_forms.laws.strength import full_slip_of_half_space, velocity_of_share
 from mdr.friction.measured_velocity import (
     ACROSS,
     AT_THE_EDGE,
@@ -215,8 +216,6 @@ def _in_three_dimensions(case: SlidingContact, accuracy: float) -> str:
 
 def _at_rest(case: SlidingContact) -> str:
     """What a shaken contact does whose pull stands still, and where nothing holds it."""
-    if case.tau_0:
-        return "At rest: what it holds is known by Coulomb's law alone"
     try:
         band, free = band_of_pull(case), no_load_velocity(case)
     except ValueError as unknown:
@@ -275,13 +274,13 @@ def _depends_on(case: SlidingContact) -> str:
     said = "with a shear strength v_c depends on the relaxation time, and on the depth as the shape has it"
     try:
         return f"{said}; a half-space slips all over from {full_slip_of_half_space(case):.3g} m/s on"
-    except ValueError:
+    except OutsideDomain:
         return said
 
 
 def _at_the_edge(case: SlidingContact) -> str:
     """What takes the place of a critical velocity on a curved face with a shear strength."""
-    if not has_edge_law(case):
+    if case not in domain_of(velocity_of_share):
         return AT_THE_EDGE
     springs, half_space = (velocity_of_share(case, 1 - NEARLY, half_space=one) for one in (False, True))
     lost = f"it is at most {100 * NEARLY:g} % from {springs:.3g} m/s on, where friction is back in practice"
@@ -292,7 +291,7 @@ def _at_the_edge(case: SlidingContact) -> str:
 def across(case: SlidingContact) -> str:
     """What takes the place of a critical velocity where a contact is shaken across its way."""
     said = ACROSS
-    if is_across_alone(case) and not case.tau_0:
+    if case in domain_of(static_across):
         rest, full, too_much = static_cof(case), full_across(case, NEARLY), _held_too_much(case)
         said += (
             f"; at rest it holds {rest:.4g} of the load, and springs stick for part of the period"
@@ -311,7 +310,7 @@ def across(case: SlidingContact) -> str:
 
 def _held_too_much(case: SlidingContact) -> float:
     """By how much [-] springs hold more at rest than Coulomb's law in every point allows; 0 where it is not known."""
-    if not is_across_alone(case) or case.indenter.least_depth > 0 or case.tau_0:
+    if case not in domain_of(static_across) or case.indenter.least_depth > 0:
         return 0.0
     return static_across(case) - static_across(case, surface=True)
 
@@ -362,19 +361,19 @@ def _left_out(case: SlidingContact) -> Iterator[str]:
     """The part of the sentence about normal-tangential coupling, where it matters."""
     beta = case.material.dundurs_beta
     springs = f"all this is of springs, which leave out normal-tangential coupling (Dundurs' beta = {beta:.2f})"
-    if case.tau_0:
+    if case not in domain_of(radial_rub):
         if abs(beta) > STRONG:
             yield springs
         return
     rub, left_out = radial_rub(case), f"{springs}; with it, in three dimensions,"
-    if is_across_alone(case):
+    if case in domain_of(static_across):
         stiffer = stiffened_by_coupling(case.material)
         if stiffer > STRONG:
             yield f"{left_out} it acts like a contact stiffer along its surface by {100 * stiffer:.2g} %"
     elif case.is_shaken:
         if abs(beta) > STRONG and case.oscillation.omega:
             yield f"{left_out} friction is lower than here, by how much under a shake was not computed"
-    elif unlike(case):
+    elif case not in domain_of(coupling_loss):
         if abs(beta) > STRONG:
             yield f"{left_out} friction is lower than here, and part of the contact may still stick above this velocity"
     elif rub > STRONG:

@@ -166,3 +166,12 @@ def test_a_run_that_does_not_settle_is_no_answer(monkeypatch):
     assert seen.why == "not looked at everywhere, as a case cannot be: the run did not settle"
     assert unseen.values == ()
     assert unseen.why.endswith("where there is a case, as not everywhere: the run did not settle")
+
+
+def test_a_strength_is_found_from_the_friction_that_it_leaves():
+    motion = mdr.NormalOscillation(20e-6, 5e-6, 300.0)
+    case = mdr.SlidingContact(mdr.Paraboloid(5e-3), mdr.Elastic(3e6, 0.4), 0.2, motion, tau_0=1e4)
+    study = mdr.sweep(case, {"tau_0": [0.0, 1e4], "v_0": [1e-3]})
+    assert np.all(np.diff(study["cof"].ravel()) > 0)
+    found = mdr.find(case, "tau_0", v_0=1e-3, share=0.99)
+    assert mdr.slide(found.cases[0], 1e-3).share == pytest.approx(0.99, abs=1e-5)

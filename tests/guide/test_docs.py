@@ -10,6 +10,7 @@ import sys
 from inspect import isfunction
 
 import gallery_page
+import laws_page
 import matplotlib.pyplot as plt
 import pages
 import pytest
@@ -138,6 +139,11 @@ def test_the_gallery_has_every_script():
     assert gallery_page.PAGE.read_text(encoding="utf-8") == gallery_page.page()
     assert {path.stem for path in gallery_page.PICTURES.iterdir()} == set(gallery_page.names())
     assert all(path.stat().st_size < gallery_page.MOST_BYTES for path in gallery_page.PICTURES.iterdir())
+
+
+def test_the_table_of_laws_is_that_of_their_domains():
+    """Where this fails, `python tests/laws_page.py` writes the table anew."""
+    assert laws_page.PAGE.read_text(encoding="utf-8") == laws_page.page()
 
 
 def test_the_paper_has_the_form_that_its_journal_asks_for():

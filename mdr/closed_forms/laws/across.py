@@ -5,16 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.coulomb import of_coulomb
 from mdr.case.depth_cycle import harmonic_sum
-from mdr.closed_forms.across import across_alone, extent_across, held_across, places, pulled_rigidly, static_across
+from mdr.case.domain import COULOMB, ELASTIC, RIGID, Condition, holds_for
+from mdr.closed_forms.across import ACROSS_ALONE, extent_across, held_across, places, static_across
 from mdr.materials.base import Material
 from mdr.normal.followed_force import N_STEPS
 from mdr.normal.normal_force import normal_force
+from mdr.normal.resolved import resolved
 from mdr.tools.checks import finite, instance, not_negative, positive
 
 FADES = 0.012  #: of mu_0 kappa omega u_z0, velocity over which `excess_across` fades at eta = 1; fitted
 STIFFER = 0.36  #: of beta²/kappa, by which coupling stiffens a contact; fitted
+ACROSS = Condition("shake", "a shake across the pull", lambda case: case.moves_across)
 
 
 def rigid_across(r: float) -> float:
@@ -46,7 +48,7 @@ def rigid_across(r: float) -> float:
     return float(2 / np.pi * share * ellipkm1(max(share * share, 1e-300)))  # a square may underflow
 
 
-@of_coulomb
+@holds_for(COULOMB, RIGID, ACROSS_ALONE, of=resolved, instead="slide or cof_curve")
 def lost_across(case: SlidingContact, v_0: float) -> float:
     """Friction 1 - mu/mu_0 [-] that a shake across takes from a fast slide, at constant depth.
 
@@ -84,7 +86,7 @@ def lost_across(case: SlidingContact, v_0: float) -> float:
     >>> print(f"{mdr.laws.lost_across(case, 5e-3):.5f}")
     0.00269
     """
-    case, v_0 = across_alone(case), positive("v_0", v_0, "pulling velocity in m/s")
+    v_0 = positive("v_0", v_0, "pulling velocity in m/s")
     d, way = case.cycle.u_z0, case.way_across
     n_omega = case.omega * np.arange(1, way.size + 1)
     modulus = np.asarray(case.material.dynamic_modulus(n_omega)) / case.material.E_star
@@ -95,7 +97,7 @@ def lost_across(case: SlidingContact, v_0: float) -> float:
     return float(weight @ (s * lost) / (weight @ s))
 
 
-@of_coulomb
+@holds_for(COULOMB, RIGID, ACROSS, of=resolved, instead="slide")
 def steered_across(case: SlidingContact, v_0: float) -> float:
     """COF across [-] of a fast slide whose normal force oscillates too: mu_0 mean of F_N y'/(v_0 mean of F_N).
 
@@ -132,9 +134,7 @@ def steered_across(case: SlidingContact, v_0: float) -> float:
     >>> print(f"{mdr.laws.steered_across(case, 5e-3):.5f}")
     0.01059
     """
-    case, v_0 = pulled_rigidly(case), positive("v_0", v_0, "pulling velocity in m/s")
-    if not case.moves_across:
-        raise ValueError("this law is that of a contact that is shaken across: give du_y, or y_cos and y_sin")
+    v_0 = positive("v_0", v_0, "pulling velocity in m/s")
     phase = 2 * np.pi * np.arange(N_STEPS) / N_STEPS
     n = np.arange(1, case.way_across.size + 1)
     rate = harmonic_sum(1j * n * case.omega * case.way_across, phase)
@@ -142,7 +142,7 @@ def steered_across(case: SlidingContact, v_0: float) -> float:
     return float(case.mu_0 * (F @ rate) / (v_0 * F.sum()))
 
 
-@of_coulomb
+@holds_for(COULOMB, RIGID, ACROSS_ALONE, ELASTIC, of=resolved, instead="mdr.half_space.slide")
 def excess_across(case: SlidingContact, v_0: float) -> float:
     """What springs are too high by, over mu_0 [-], where a contact is shaken across: beside a half-space uncoupled.
 
@@ -182,9 +182,7 @@ def excess_across(case: SlidingContact, v_0: float) -> float:
     >>> [round(mdr.laws.excess_across(case, v_0), 3) for v_0 in (0, 3e-5, 3e-4)]
     [0.126, 0.047, 0.001]
     """
-    case, v_0 = across_alone(case), not_negative("v_0", v_0, "pulling velocity in m/s")
-    if case.material.tau or case.material.contact_arms:
-        raise ValueError(f"only elastic contacts were computed, got {case.material!r}")
+    v_0 = not_negative("v_0", v_0, "pulling velocity in m/s")
     d, d_y = case.cycle.u_z0, extent_across(case)
     if not 0 < d_y < d:
         return 0.0
@@ -220,6 +218,7 @@ def stiffened_by_coupling(material: Material) -> float:
     return float(STIFFER * material.dundurs_beta**2 / material.mindlin_ratio)
 
 
+@holds_for(COULOMB, RIGID, ACROSS_ALONE, of=resolved, instead="slide or cof_curve")
 def full_across(case: SlidingContact, share: float) -> float:
     """Velocity [m/s] from which such a shake takes no more than a share of mu_0; 0 if never more, NaN if not known.
 
@@ -227,7 +226,6 @@ def full_across(case: SlidingContact, share: float) -> float:
     """
     from scipy.optimize import brentq
 
-    case = across_alone(case)
     fastest = case.fastest_across
     if lost_across(case, 0.01 * fastest) <= share:
         return 0.0 if static_across(case) >= (1 - share) * case.mu_0 else np.nan

@@ -8,8 +8,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.case.contact import SlidingContact, require_case
-from mdr.case.coulomb import of_coulomb
+from mdr.case.contact import SlidingContact
+from mdr.case.domain import (
+    ABOVE_ZERO,
+    COULOMB,
+    HARMONIC,
+    NO_ARMS,
+    ON_SPRING,
+    UNDERDAMPED,
+    UNSHAKEN,
+    WITH_MASS,
+    Condition,
+    holds_for,
+)
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import normal_force_harmonics
 from mdr.indenters.base import Indenter
@@ -17,6 +28,15 @@ from mdr.normal.kelvin_edges import contact_edge, turning_phase
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.springs import SpringArray
 from mdr.tools.checks import count, positive
+
+OF_THE_PAPER = (COULOMB, HARMONIC, NO_ARMS, UNSHAKEN)
+FLAT = Condition(
+    "indenter",
+    "a flat punch, whose stiffness is constant",
+    lambda case: abs(stiffness_exponent(case.indenter, case.working_depth)) <= 1e-9,
+)
+VISCOUS = Condition("T", "a slow material, T >> 1", lambda case: case.T > 0)
+ANY_AMPLITUDE = "full_slip_critical_velocity"
 
 # --- the error of Eq. (15) at small amplitude ---
 
@@ -49,7 +69,7 @@ def stiffness_exponent(indenter: Indenter, d: float) -> float:
     return float(np.log(high / low) / np.log((1 + step) / (1 - step)))
 
 
-@of_coulomb
+@holds_for(*OF_THE_PAPER, instead=ANY_AMPLITUDE)
 def first_order(case: SlidingContact, n_t: int = 4096) -> float:
     """First order C [-] of the error of Eq. (15) in the amplitude: v_c/v_c15 - 1 = C alpha s + O(alpha²).
 
@@ -90,7 +110,6 @@ def first_order(case: SlidingContact, n_t: int = 4096) -> float:
     >>> bool(abs(error - truth) < 0.1 * abs(truth))
     True
     """
-    case = _of_the_paper(case)
     q_m = _second_order_force(case.T, n_t)
     m = np.arange(q_m.size)
     H = np.asarray(case.pull.receptance(m * case.omega))
@@ -141,7 +160,7 @@ def load_error(eps: float, n: float) -> float:
 # --- what the mean depth does to v_c ---
 
 
-@of_coulomb
+@holds_for(*OF_THE_PAPER, instead="critical_velocity at two depths")
 def depth_sensitivity(case: SlidingContact) -> float:
     """Sensitivity S = d ln v_c/d ln k_xc [-] of Eq. (15) to the contact stiffness, at a given amplitude du_z.
 
@@ -176,7 +195,6 @@ def depth_sensitivity(case: SlidingContact) -> float:
     >>> round(mdr.laws.depth_sensitivity(case), 3)  # k_xc/(k_x + k_xc)
     0.119
     """
-    case = _of_the_paper(case)
     if case.pull.is_rigid:
         return 0.0
     q, z = _groups(case)
@@ -190,7 +208,7 @@ class LeastOverDepth(NamedTuple):
     over_eq_1: float  #: v_c over Eq. (1) there [-]
 
 
-@of_coulomb
+@holds_for(*OF_THE_PAPER, ON_SPRING, instead="critical_velocity at several depths")
 def least_over_depth(case: SlidingContact) -> LeastOverDepth:
     """Contact stiffness at which Eq. (15) is least over the depth, at a given du_z, and v_c there.
 
@@ -223,23 +241,17 @@ def least_over_depth(case: SlidingContact) -> LeastOverDepth:
     >>> mdr.laws.least_over_depth(case).over_eq_1 < 0.5
     True
     """
-    q, z = _groups(_of_the_paper(case))
+    q, z = _groups(case)
     k_xc = float((q / z).real)
     if not k_xc > 0:
         raise ValueError("v_c has no minimum over the depth: the body is below its resonance, Re(q/z) <= 0")
     return LeastOverDepth(k_xc, float(abs((q / z).imag) * abs(z) / abs(q)))
 
 
-def _groups(case: SlidingContact) -> tuple[complex, complex]:
-    """Dynamic stiffness q [N/m] of the body and z = 1 + i T."""
-    (m, c_x, k_x), omega = _oscillator(case), case.omega
-    return complex(m * omega**2 - k_x, -c_x * omega), complex(1, case.T)
-
-
 # --- contact lost ---
 
 
-@of_coulomb
+@holds_for(*OF_THE_PAPER, WITH_MASS, UNDERDAMPED, ABOVE_ZERO, FLAT, instead=ANY_AMPLITUDE)
 def onset(case: SlidingContact) -> float:
     """Error [-] of Eq. (15) for a flat punch under a body that has just been lost, to leading order.
 
@@ -280,10 +292,7 @@ def onset(case: SlidingContact) -> float:
     >>> bool(abs(mdr.laws.onset(case) / truth - 1) < 0.01)
     True
     """
-    case = _of_the_paper(case)
-    lam, m, T = _free_oscillation(case), _mass(case), case.T
-    if abs(stiffness_exponent(case.indenter, case.working_depth)) > 1e-9:
-        raise ValueError(f"{case.indenter!r}: the onset is that of a flat punch, whose stiffness is constant")
+    lam, (m, _, _), T = _free_oscillation(case), case.pull.coefficients, case.T
     eps = case.alpha * float(np.hypot(1, T)) - 1
     if eps <= 0:
         return 0.0
@@ -296,7 +305,7 @@ def onset(case: SlidingContact) -> float:
     return float(faster / (critical_velocity(case) / (1 + eps)))
 
 
-@of_coulomb
+@holds_for(*OF_THE_PAPER, VISCOUS, WITH_MASS, UNDERDAMPED, instead=ANY_AMPLITUDE)
 def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     """Critical velocity [m/s] of a slow material, T >> 1, that loses contact under a body.
 
@@ -336,10 +345,8 @@ def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     >>> bool(abs(mdr.laws.blow(case) / mdr.full_slip_critical_velocity(case) - 1) < 1e-4)
     True
     """
-    case = _of_the_paper(case)
-    if case.T == 0:
-        raise ValueError("T = 0: an elastic surface is back at once; the law is that of a slow material, T >> 1")
-    lam, m, omega, du_z = _free_oscillation(case), _mass(case), case.omega, case.cycle.du_z
+    lam, (m, _, _) = _free_oscillation(case), case.pull.coefficients
+    omega, du_z = case.omega, case.cycle.du_z
     springs = SpringArray.of(case, n_springs)
     depth = np.maximum(du_z - springs.gap, 0)
     early = 2 / 3 * np.sqrt(4 * np.pi * depth / (case.T * du_z)) / omega
@@ -348,7 +355,7 @@ def blow(case: SlidingContact, n_springs: int = 4096) -> float:
     return float(np.sum(impulse * answer.imag) / (m * lam.imag))
 
 
-@of_coulomb
+@holds_for(*OF_THE_PAPER, WITH_MASS, instead=ANY_AMPLITUDE)
 def half_a_blow(case: SlidingContact) -> float:
     """Limit [m/s] of `blow` for T to infinity under a light damper: pi mu_0 F_N(u_z0 + du_z)/(m omega).
 
@@ -382,15 +389,14 @@ def half_a_blow(case: SlidingContact) -> float:
     >>> round(mdr.laws.half_a_blow(case), 4)
     0.016
     """
-    case = _of_the_paper(case)
     F = float(case.indenter.force(case.u_z_max, case.material.E_star))
-    return float(np.pi * case.mu_0 * F / (_mass(case) * case.omega))
+    return float(np.pi * case.mu_0 * F / (case.pull.coefficients[0] * case.omega))
 
 
 # --- an undamped body on a multiple of the frequency ---
 
 
-@of_coulomb
+@holds_for(COULOMB, instead="slide or cof_curve")
 def harmonic_share(case: SlidingContact, n: int) -> float:
     """Share ``|F_n|/F_0`` [-] of the n-th harmonic in the normal force: what friction stays short of on a resonance.
 
@@ -421,11 +427,11 @@ def harmonic_share(case: SlidingContact, n: int) -> float:
     0.15
     """
     n = count("n", n, 1)
-    F_n = normal_force_harmonics(require_case(case))
+    F_n = normal_force_harmonics(case)
     return float(abs(F_n[n]) / F_n[0].real)
 
 
-@of_coulomb
+@holds_for(COULOMB, WITH_MASS, instead=ANY_AMPLITUDE)
 def resonance_residue(case: SlidingContact, n: int) -> float:
     """Limit [m/s] of v_c times the detuning ``|omega_0/omega - n|`` of an undamped body, on its resonance: its pole.
 
@@ -462,7 +468,7 @@ def resonance_residue(case: SlidingContact, n: int) -> float:
     """
     share = harmonic_share(case, n)
     residue = case.mu_0 * share * mean_normal_force(case)
-    return float(residue / (_mass(case) * case.omega))
+    return float(residue / (case.pull.coefficients[0] * case.omega))
 
 
 def lock_in(n: int) -> float:
@@ -491,35 +497,17 @@ def lock_in(n: int) -> float:
     return float(np.cos(np.pi / (2 * count("n", n, 2))))
 
 
-# --- what a case must be ---
+# --- the body of a case ---
 
 
-def _of_the_paper(case: SlidingContact) -> SlidingContact:
-    if not require_case(case).is_of_the_paper or case.is_shaken:
-        raise ValueError(
-            "this law is known for a harmonic depth, a material without arms and no shake in the plane only"
-        )
-    return case
-
-
-def _oscillator(case: SlidingContact) -> tuple[float, float, float]:
-    """M [kg], c_x [N s/m] and k_x [N/m] of the body on its spring."""
-    if case.pull.is_rigid:
-        raise TypeError(f"this law is that of a body on a spring; pull must be a SpringPull, got {case.pull!r}")
-    return case.pull.coefficients
-
-
-def _mass(case: SlidingContact) -> float:
-    """M [kg] of the body, above 0."""
-    m, _, _ = _oscillator(case)
-    if m == 0:
-        raise ValueError("m = 0: this law is that of a body with a mass")
-    return m
+def _groups(case: SlidingContact) -> tuple[complex, complex]:
+    """Dynamic stiffness q [N/m] of the body and z = 1 + i T."""
+    (m, c_x, k_x), omega = case.pull.coefficients, case.omega
+    return complex(m * omega**2 - k_x, -c_x * omega), complex(1, case.T)
 
 
 def _free_oscillation(case: SlidingContact) -> complex:
     """lambda [rad/s] of the free body on its spring and damper."""
-    m, pull = _mass(case), case.pull
-    if pull.damping_ratio >= 1:
-        raise ValueError(f"damping ratio {pull.damping_ratio:.3g}: it must be below 1 for a free oscillation")
-    return complex(-pull.coefficients[1] / (2 * m), pull.omega_0 * np.sqrt(1 - pull.damping_ratio**2))
+    pull = case.pull
+    m, c_x, _ = pull.coefficients
+    return complex(-c_x / (2 * m), pull.omega_0 * np.sqrt(1 - pull.damping_ratio**2))

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.coulomb import of_coulomb
+from mdr.case.domain import ABOVE_ZERO, COULOMB, GIVEN_DEPTH, NO_ARMS, NO_SHAKE, RIGID, holds_for
 from mdr.case.motion import NormalOscillation
 from mdr.case.spectrum import Spectrum
 from mdr.closed_forms.rigid_pull import average_friction
@@ -130,7 +130,7 @@ def random_end(share: float, T: float = 0.0) -> float:
     return float(brentq(lambda b: np.log(random_loss(b, T) / left), 1e-4, 8.0, xtol=1e-10))
 
 
-@of_coulomb
+@holds_for(COULOMB, RIGID, NO_SHAKE, NO_ARMS, GIVEN_DEPTH, ABOVE_ZERO, instead="random_cof")
 def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> float:
     """Friction [-] of a fast pull over a depth that vibrates at random: mu_0 (1 - k_zc D/F_N), D of `random_loss`.
 
@@ -165,14 +165,8 @@ def random_friction(case: SlidingContact, spectrum: Spectrum, v_0: float) -> flo
     >>> print(round(mdr.laws.random_friction(case, rough, 2e-3), 3))
     0.487
     """
-    instance("case", case, SlidingContact)
     instance("spectrum", spectrum, Spectrum)
     v_0, depth = positive("v_0", v_0, "in m/s"), case.cycle.u_z0
-    if not case.pull.is_rigid or case.shake is not None or case.material.contact_arms or depth <= 0:
-        raise ValueError(
-            "the law is that of a rigid pull on an elastic or Kelvin material at a positive mean depth, got "
-            f"{case.pull!r}, shake = {case.shake!r}, {case.material!r}, u_z0 = {depth:.6g} m: use random_cof"
-        )
     if not spectrum.rms <= 1 / 3 * depth:  # above, contact is lost now and then
         raise ValueError(
             f"the rms of the spectrum, {spectrum.rms:.4g} m, is more than a third of the mean depth of {depth:.4g} m: "

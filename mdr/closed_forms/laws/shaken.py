@@ -7,13 +7,15 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.coulomb import of_coulomb
-from mdr.closed_forms.across import pulled_rigidly
+from mdr.case.domain import COULOMB, ELASTIC, RIGID, Condition, holds_for
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.paper import deficit
 from mdr.indenters.base import Indenter
 from mdr.normal.normal_force import mean_normal_force
+from mdr.normal.resolved import resolved
 from mdr.tools.checks import between, finite, instance, not_negative, positive
+
+ONE_FREQUENCY = Condition("repeats", "depth and shake of one frequency", lambda case: max(case.repeats) == 1)
 
 
 def rigid_shake(r: float) -> float:
@@ -71,7 +73,7 @@ def held_under_shake(indenter: Indenter, d: float, reach: float) -> float:
     return float(indenter.force(max(d - reach, 0.0), 1.0)) / float(indenter.force(d, 1.0))
 
 
-@of_coulomb
+@holds_for(COULOMB, RIGID, ELASTIC, ONE_FREQUENCY, of=resolved, instead="slide or cof_curve")
 def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     """Friction 1 - mu/mu_0 [-] that a small oscillation takes, normal and along the way together, at any phase.
 
@@ -109,9 +111,6 @@ def lost_under_shake(case: SlidingContact, v_0: float) -> float:
     >>> print(f"{mdr.laws.lost_under_shake(case, 1e-5):.5f}")
     0.00471
     """
-    case = pulled_rigidly(case)
-    if case.rheology.remembers or case.repeats not in ((1, 0), (0, 1), (1, 1)):
-        raise ValueError("this law is that of an elastic contact whose depth and way have one frequency")
     v_0 = finite("v_0", v_0)
     v_c = critical_velocity(case, 1 if v_0 >= 0 else -1)
     if v_c == 0:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.domain import ELASTIC, NO_ARMS, RIGID, STRENGTH, UNSHAKEN, Condition, holds_for
+from mdr.case.friction import Coulomb, ShearStrength
 from mdr.closed_forms.full_slip_face import greatest_rate_of_half_space
 from mdr.normal.normal_force import contact_radius, mean_area, mean_normal_force
 from mdr.normal.resolved import resolved
@@ -12,8 +14,24 @@ from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import between, positive
 
 INSTANTS = 4096  #: of a period, over which the passage of the edge is summed
+EITHER = Condition(
+    "friction",
+    "Coulomb's friction or a shear strength",
+    lambda case: isinstance(case.friction, Coulomb | ShearStrength),
+)
+at_the_edge = holds_for(
+    STRENGTH,
+    RIGID,
+    UNSHAKEN,
+    ELASTIC,
+    Condition("indenter", "a curved face, whose edge of contact moves", lambda case: case.edge_moves),
+    Condition("keeps_contact", "a contact that is kept", lambda case: case.keeps_contact),
+    of=resolved,
+    instead="slide(case, v_0)",
+)
 
 
+@at_the_edge
 def lost_at_the_edge(case: SlidingContact, v_0: float, *, half_space: bool = False) -> float:
     """Share of full friction [-] that a curved elastic face with a shear strength loses in a fast slide.
 
@@ -65,7 +83,7 @@ def lost_at_the_edge(case: SlidingContact, v_0: float, *, half_space: bool = Fal
     8.17e-03
     6.32e-04
     """
-    case, v_0 = _edge_case(case), positive("v_0", v_0, "pulling velocity in m/s")
+    v_0 = positive("v_0", v_0, "pulling velocity in m/s")
     a, a_rate, slip = _passage(case)
     v = v_0 - slip
     if not v.min() > 0:
@@ -83,6 +101,7 @@ def lost_at_the_edge(case: SlidingContact, v_0: float, *, half_space: bool = Fal
     return lost / (case.mu_0 * mean_normal_force(case) + case.tau_0 * mean_area(case))
 
 
+@at_the_edge
 def velocity_of_share(case: SlidingContact, share: float, *, half_space: bool = False) -> float:
     """Pulling velocity [m/s] at which a share of the friction of a curved elastic face with a shear strength is back.
 
@@ -122,7 +141,7 @@ def velocity_of_share(case: SlidingContact, share: float, *, half_space: bool = 
     """
     from scipy.optimize import brentq
 
-    case, share = _edge_case(case), between("share", share, 0.9, 1, "of full friction, such as 0.99")
+    share = between("share", share, 0.9, 1, "of full friction, such as 0.99")
     slowest = float(_passage(case)[2].max())
     unit, lost = case.unit_velocity, 1 - share
 
@@ -141,6 +160,14 @@ def velocity_of_share(case: SlidingContact, share: float, *, half_space: bool = 
     return float(brentq(lambda v: loss(v) / lost - 1, low, high, xtol=1e-15 * high, rtol=1e-13))
 
 
+@holds_for(
+    EITHER,
+    RIGID,
+    UNSHAKEN,
+    NO_ARMS,
+    of=resolved,
+    instead="full_slip_critical_velocity, which is that of springs",
+)
 def full_slip_of_half_space(case: SlidingContact) -> float:
     """Velocity of full slip [m/s] of a face with a shear strength on a half-space without coupling.
 
@@ -173,35 +200,7 @@ def full_slip_of_half_space(case: SlidingContact) -> float:
     0.385 mm/s
     0.203 mm/s
     """
-    case = resolved(case)
-    if not _is_pulled_alone(case) or case.material.contact_arms:
-        raise ValueError(
-            "the half-space is elastic or Kelvin, under a rigid pull without a shake, got "
-            f"{type(case.material).__name__}, {type(case.pull).__name__}, shake = {case.shake!r}: ask "
-            "full_slip_critical_velocity(case), which is that of springs"
-        )
     return greatest_rate_of_half_space(case, lambda phase: _slip(case, phase))
-
-
-def has_edge_law(case: SlidingContact) -> bool:
-    """Whether the laws are known: a curved elastic face that keeps contact, under a rigid pull and nothing else."""
-    return case.always_sticks and case.keeps_contact and not case.rheology.remembers and _is_pulled_alone(case)
-
-
-def _is_pulled_alone(case: SlidingContact) -> bool:
-    return case.pull.is_rigid and not case.is_shaken
-
-
-def _edge_case(case: SlidingContact) -> SlidingContact:
-    case = resolved(case)
-    if not has_edge_law(case):
-        lost = "kept" if case.keeps_contact else "lost in part of the period"
-        raise ValueError(
-            "the law is that of a curved elastic face with tau_0 > 0 that keeps contact, under a rigid pull without a "
-            f"shake, got tau_0 = {case.tau_0:.6g} Pa, {type(case.indenter).__name__}, {type(case.material).__name__}, "
-            f"{type(case.pull).__name__}, shake = {case.shake!r}, contact {lost}: ask slide(case, v_0)"
-        )
-    return case
 
 
 def _passage(case: SlidingContact) -> tuple[Array, Array, Array]:
