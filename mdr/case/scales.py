@@ -85,8 +85,8 @@ class Scales(InMotion):
 
     @property
     def unit_length(self) -> float:
-        """mu_0 kappa du_z + 2 tau_0 a(u_z_max)/G* [m]: change of the deflection at which pressed springs slip, and the
-        part of it that a shear strength holds; a unit of tangential lengths. At a constant depth u_z0 stands for du_z.
+        """Unit of tangential length [m]: mu_0 kappa du_z + 2 tau_0 a(u_z_max)/G*, amplitude of the slip limit, plus the
+        part of the shear strength. At a constant depth u_z0 stands for du_z.
         """
         return self.friction.mu_0 * self.material.mindlin_ratio * self.cycle.unit + self._strength(self.u_z_max)
 

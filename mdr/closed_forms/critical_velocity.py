@@ -105,8 +105,8 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
 
 
 def _knows_full_slip_alone(case: SlidingContact) -> bool:
-    """Whether a shear strength leaves the condition of full slip alone: where the edge of contact moves."""
-    return case.tau_0 > 0 and resolved(case).edge_moves
+    """Whether a shear strength leaves the condition of full slip alone: where its edge moves."""
+    return case.friction.needs_area and resolved(case).strength_moves
 
 
 def velocity_scale(case: SlidingContact) -> float:

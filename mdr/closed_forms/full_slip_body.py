@@ -110,7 +110,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     case = resolved(case).pulled(direction)
     if case.moves_across or not np.isfinite(case.way).all() or case.always_sticks:
         return np.inf
-    strengthened = case.tau_0 > 0 and case.edge_moves
+    strengthened = case.strength_moves
     rates = _slip_rates(case)
     touches, leaves = contact_ends(case)
     if case.pull.is_rigid and strengthened:
@@ -216,10 +216,9 @@ def _time_panels(case: SlidingContact, rates: NDArray[np.complex128], cuts: Arra
     low, high = ends[:-1], ends[1:]
     phase = low[:, None] + (high - low)[:, None] * _collocation()[0]
     rest, F = (0.0, normal_force(case, phase)) if known is None else (known[0], harmonic_sum(known[1], phase))
-    friction = case.mu_0 * F
-    if case.tau_0 and case.edge_moves:
-        friction = friction + case.tau_0 * np.pi * contact_radius(case, phase) ** 2
-    return _TimePanels(low, high, phase, friction, case.mu_0 * rest)
+    law = case.friction
+    friction = law.full(F, contact_radius(case, phase)) if case.strength_moves else law.mu_0 * F
+    return _TimePanels(low, high, phase, friction, law.mu_0 * rest)
 
 
 def _graded(low: float, high: float, smallest: float) -> Array:
@@ -258,8 +257,9 @@ def _velocity(case: SlidingContact, panels: _TimePanels) -> Array:
     M, C = m * omega**2, c_x * omega
     if M == C == 0:
         rate = case.mu_0 * normal_force_rate(case, panels.phase, panels.slope)
-        if case.tau_0 and case.edge_moves:
-            rate = rate + case.tau_0 * np.pi * panels.slope(contact_radius(case, panels.phase) ** 2)
+        if case.strength_moves:
+            strong = case.friction.strong_radius(contact_radius(case, panels.phase))
+            rate = rate + case.friction.tau_0 * np.pi * panels.slope(strong**2)
         return -omega / K * rate
     A, b = (
         (np.array([[0, 1], [-K / M, -C / M]]), np.array([0, 1 / M])) if M else (np.array([[-K / C]]), np.array([1 / C]))

@@ -1,7 +1,8 @@
 """Full slip of a face with a shear strength: what the strength adds to the rate at which springs are stretched.
 
 In full slip L[e] is the limit of friction, and L is linear: e = mu_0 kappa s + r with L[r] = (2 tau_0/G*) sqrt(a² - x²)
-in contact and nothing else. So a spring slips for good where v_0 is above the greatest mu_0 kappa u_z' + r' - y'.
+in contact and nothing else, a the radius on which the strength acts. So a spring slips for good where v_0 is above the
+greatest mu_0 kappa u_z' + r' - y'.
 A flat face that keeps contact has a constant r, and nothing is added. On a curved elastic face a spring that the edge
 of contact has just reached may bear a force that grows like the root of time, faster than any pull: it always sticks.
 On a dashpot, r + tau r' = (2 tau_0/G*) sqrt(a² - x²), r' has a bound. Arms beside the dashpot make of r a sum of such,
@@ -17,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mdr.case.contact import SlidingContact
 from mdr.indenters.mapping.quadrature import double_exponential
@@ -29,15 +31,16 @@ FINE, MOST_PHASES = 60.0, 2**15  #: of a half-space: phases times omega tau, ten
 
 
 def greatest_rate(case: SlidingContact, rest: Callable[[Array], Array]) -> float:
-    """Greatest rest(phase) + r' [m/s] of any spring in contact on a material with a dashpot, where the edge of contact
-    moves. rest: the rates that all springs have.
+    """Greatest rest(phase) + r' [m/s] of any spring in contact on a material with a dashpot, where the edge of the
+    strength moves. rest: the rates that all springs have.
     """
     from scipy.optimize import minimize
 
     phase = 2 * np.pi / PHASES * np.arange(float(PHASES))
     a = contact_radius(case, phase)
-    x = _places(a)
-    total = rest(phase)[:, None] + _rates(case, a, x, np.sqrt(np.maximum(a[:, None] ** 2 - x**2, 0.0)))
+    strong = case.friction.strong_radius(a)
+    x = np.union1d(_places(a), _places(strong))
+    total = rest(phase)[:, None] + _rates(case, a, x, np.sqrt(np.maximum(strong[:, None] ** 2 - x**2, 0.0)))
     (k, i), modes = np.unravel_index(int(np.argmax(total)), total.shape), _compliance(case)
 
     def less(at: Array) -> float:
@@ -55,7 +58,7 @@ def greatest_rate_of_half_space(case: SlidingContact, rest: Callable[[Array], Ar
 
     n = int(np.clip(np.ceil(FINE / max(case.T, EXACT)), 2 * PHASES, MOST_PHASES))
     phase = 2 * np.pi / n * np.arange(float(n))
-    if not (case.tau_0 and case.edge_moves):
+    if not case.strength_moves:
         return float(rest(phase).max())
     if not case.T:
         return float("inf")
@@ -100,13 +103,18 @@ def _rates(case: SlidingContact, a: Array, x: Array, c: Array) -> Array:
 
 
 def _unit(case: SlidingContact) -> float:
-    return 2 * case.tau_0 / case.material.G_star * case.omega
+    return 2 * case.friction.tau_0 / case.material.G_star * case.omega
 
 
 def _rate(case: SlidingContact, x: float, phase: float, shares: Array, times: Array) -> float:
     """r' [m/s] of the spring at x on a dashpot; -inf where it is not in contact. shares, times: of `_compliance`."""
     rule, cycle = double_exponential(), case.cycle
     now = float(contact_radius(case, np.array(phase)))
+
+    def limit(a: ArrayLike) -> Array:
+        """sqrt(a² - x²) of the strength at radii of contact."""
+        return np.asarray(np.sqrt(np.maximum(case.friction.strong_radius(a) ** 2 - x * x, 0.0)))
+
     if not abs(x) < now:
         return -np.inf
     gap = (float(case.indenter.profile_1d(abs(x))) - cycle.u_z0) / cycle.unit
@@ -120,12 +128,13 @@ def _rate(case: SlidingContact, x: float, phase: float, shares: Array, times: Ar
         weights = shares / times**2 / (-np.expm1(-2 * np.pi / times) if repeats else 1.0)
 
         def left(at: Array) -> Array:
-            c = np.sqrt(np.maximum(contact_radius(case, at) ** 2 - x * x, 0.0))
-            return np.asarray(c * (np.exp(-np.divide.outer(high + later - at, times)) @ weights))
+            return np.asarray(
+                limit(contact_radius(case, at)) * (np.exp(-np.divide.outer(high + later - at, times)) @ weights)
+            )
 
         return float(rule.integral(left, cuts))
 
-    rate = np.sqrt(now * now - x * x) * np.sum(shares / times) - of_stretch(begin, phase, 0.0, not touches)
+    rate = limit(now) * np.sum(shares / times) - of_stretch(begin, phase, 0.0, not touches)
     for touch in touches:  # what is left of the contacts before
         leave = touch + min((one - touch) % (2 * np.pi) for one in leaves)
         rate -= of_stretch(touch, leave, (phase - leave) % (2 * np.pi), True)

@@ -73,7 +73,7 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         told.append(told_velocity("v_c_rigid", mdr.critical_velocity(rigid), "rigid", meaning))
     if not case.is_shaken:
         known = mdr.resolved(case)
-        full = f"; in full slip {full_cof(known):.6g}" if case.tau_0 else ""
+        full = f"; in full slip {full_cof(known):.6g}" if not case.friction.is_coulomb else ""
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}{full}"
         told.append(told_number("static_cof", mdr.static_cof(case), "static COF", "-", rest))
         if known in domain_of(mdr.laws.velocity_of_share):

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from mdr.files.case_files import record_of
 from mdr.files.measurements import LIKELY_MODULUS, read_table
-from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals, instantaneous_of
-from mdr.files.toml_text import parse_toml, read_text, tried
+from mdr.files.relative_moduli import ROUNDED, WAY_OUT, are_relative, in_pascals, instantaneous_of, material_of
+from mdr.files.toml_text import CaseFileError, field_faults, parse_toml, read_text, tried
 from mdr.tools.csv_header import Column, Reading, fault
 from mdr.tools.csv_table import Table, warn_of_size
-from mdr.tools.messages import short
+from mdr.tools.fields import units_of
+from mdr.tools.messages import offer, short
+from mdr.tools.notation import numbers_in
 
 #: moduli in Pa, shear moduli in Pa, or shares of the instantaneous modulus
 MODULI = (
@@ -36,14 +37,19 @@ ARMS = (
 
 
 def from_table(
-    path: str | PathLike[str], nu: float | None, E_0: float | None, G_0: float | None, reading: Reading
+    material: type[Any],
+    path: str | PathLike[str],
+    nu: float | None,
+    E_0: float | None,
+    G_0: float | None,
+    reading: Reading,
 ) -> dict[str, Any]:
-    """The fields of a Prony in a file."""
+    """The fields of a material of arms in a file."""
     name = fsdecode(path)
     if name.lower().endswith(".toml"):
         if any(reading):
             raise fault(name, "units, columns, skip and table are those of a CSV table")
-        return _from_toml(read_text(path), name, {"nu": nu, "E_0": E_0, "G_0": G_0})
+        return _from_toml(material, read_text(path), name, {"nu": nu, "E_0": E_0, "G_0": G_0})
     if not name.lower().endswith(".csv"):
         raise fault(name, "a table of arms must end in .csv or .toml")
     if nu is None:
@@ -81,15 +87,29 @@ def _from_csv(table: Table, nu: float, E_0: float | None) -> dict[str, Any]:
     return {"E_inf": E_inf, "arms": tuple(zip(moduli, tau[arms].tolist(), strict=True))}
 
 
-def _from_toml(text: str, name: str, beside: dict[str, float | None]) -> dict[str, Any]:
+def _from_toml(material: type[Any], text: str, name: str, beside: dict[str, float | None]) -> dict[str, Any]:
     """The fields in a table [material], or in one without a name; what stands `beside` it is taken."""
     content = parse_toml(text, name)
     table = content.get("material", content)
-    if isinstance(table, dict):
-        table = {"model": "Prony", **table, **{key: one for key, one in beside.items() if one is not None}}
-        if table["model"] != "Prony":
-            raise fault(name, f'model "{short(str(table["model"]))}" is not Prony')
-    material, faults = tried(record_of, "material", table)
+    if not isinstance(table, dict):
+        raise fault(name, "[material] must be one table of keys")
+    if (model := table.pop("model", "Prony")) != "Prony":
+        raise fault(name, f'model "{short(str(model))}" is not Prony')
+    table |= {key: one for key, one in beside.items() if one is not None}
+    given, faults = tried(_fields_in, material, table)
     if faults:
-        raise fault(name, "; ".join(faults))
-    return dict(vars(material))
+        raise fault(name, "; ".join(f"[material] {one}" for one in faults))
+    return dict(given)
+
+
+def _fields_in(material: type[Any], table: dict[str, Any]) -> dict[str, Any]:
+    """The fields that the keys of a table say. Raises CaseFileError with every fault."""
+    units, table = units_of(material), dict(material_of(material, table))
+    known = ["model", *units]
+    faults = [f"{short(key)} is no key of Prony; {offer(key, known)}" for key in table if key not in units]
+    read = {key: tried(numbers_in, key, value, units[key]) for key, value in table.items() if key in units}
+    given = {key: value for key, (value, wrong) in read.items() if not wrong}
+    faults += [one for _, wrong in read.values() for one in wrong]
+    if faults := [*faults, *field_faults(material, given, {}, read)]:
+        raise CaseFileError.of(faults)
+    return given

@@ -42,7 +42,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from inspect import isabstract
 from types import ModuleType
@@ -57,8 +57,8 @@ from mdr.case.paths import HOLD, OPEN, SetPath, fields_set, hold_of, settings_of
 from mdr.case.pull import RigidPull, SpringPull
 from mdr.files import relative_moduli
 from mdr.files.own_records import own_records
-from mdr.files.toml_text import CaseFileError, told, toml_value, tried
-from mdr.tools.fields import checked, example_of, fields_of, required, units_of
+from mdr.files.toml_text import CaseFileError, field_faults, told, toml_value, tried
+from mdr.tools.fields import example_of, fields_of, units_of
 from mdr.tools.messages import nearest, offer, short
 from mdr.tools.notation import numbers_in
 
@@ -273,7 +273,7 @@ class _Table:
             hold, wrong = tried(_hold_beside, table[HOLD], table, record)
             faults += wrong
             held |= {HOLD: hold} if "load" in held and not wrong else {}
-        refused = _field_faults(record, given, self._ways_out(record), spoilt)
+        refused = field_faults(record, given, self._ways_out(record), spoilt)
         made, together = (None, []) if refused or spoilt else tried(record, **given)
         if faults := [*faults, *refused, *together]:
             raise CaseFileError.of(faults)
@@ -374,16 +374,6 @@ def _number_at(key: str, value: Any, of: SetPath | str) -> Any:
     if isinstance(of, str):
         return numbers_in(key, value, of)
     return of.told(key, numbers_in(key, value, of.facts.unit))
-
-
-def _field_faults(
-    record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str], spoilt: Collection[str | None] = ()
-) -> list[str]:
-    """What is missing, but for what was `spoilt` already, then what each field refuses by its rule."""
-    refused = [tried(checked, one, given[one.name])[1] for one in fields(record) if one.init and one.name in given]
-    absent = [one.name for one in required(record) if one.name not in given and one.name not in spoilt]
-    missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
-    return missing + [fault for found in refused for fault in found]
 
 
 # --- from records to text ---

@@ -183,7 +183,7 @@ def _components(table: Table, kind: Sequence[Column]) -> tuple[Array, Array]:
 
 
 def _shift(table: Table, temperature: float | None, wlf: Any) -> Array:
-    """What the frequency of each row is multiplied by, to be one at a temperature [°C]."""
+    """Shift factor of each row to the reference temperature [°C]: it multiplies the frequency."""
     if temperature is None or "T" not in table.values:
         lack = 'a column T, such as "T [degC]"' if "T" not in table.values else "temperature=, in °C"
         raise table.fault(f"wlf shifts all rows to one temperature: give {lack}")

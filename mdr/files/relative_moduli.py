@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mdr.files.toml_text import CaseFileError
-from mdr.materials import Prony, StandardLinearSolid
 from mdr.materials.base import poisson_ratio
 from mdr.tools.checks import positive
+from mdr.tools.fields import fields_of
 from mdr.tools.notation import numbers_in
 
 KEYS = ("E_0", "G_0")  #: of what they are shares
@@ -69,7 +69,7 @@ def material_of(record: type[Any], table: Mapping[str, Any]) -> Mapping[str, Any
     except (TypeError, ValueError) as refusal:
         raise CaseFileError(str(refusal)) from None
     said: dict[str, Any] = {key: value for key, value in table.items() if key not in KEYS} | {"E_inf": rest}
-    if record is Prony:
+    if "arms" in table:
         return said | {"arms": [[E, arm[1]] for E, arm in zip(scaled, table["arms"], strict=True)]}
     return said | {"E_1": scaled[0]}
 
@@ -84,10 +84,11 @@ def told(values: Mapping[str, Any], record: type[Any]) -> dict[str, Any]:
 
 def _shares(record: type[Any], table: Mapping[str, Any]) -> tuple[float | None, list[float]] | None:
     """E_inf, None where it is left out, and the moduli of the arms; None unless all are numbers without a unit."""
-    if record not in (Prony, StandardLinearSolid):
+    arms = {"arms", "E_1"}.intersection(fields_of(record))
+    if "E_inf" not in fields_of(record) or not arms:
         return None
     try:
-        moduli = [E_j for E_j, _ in table["arms"]] if record is Prony else [table["E_1"]]
+        moduli = [E_j for E_j, _ in table["arms"]] if "arms" in arms else [table["E_1"]]
     except (KeyError, TypeError, ValueError):
         return None
     E_inf = table.get("E_inf")

@@ -8,11 +8,13 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import fields
 from os import PathLike, fsdecode
 from typing import Any
 
+from mdr.tools.fields import checked, required
 from mdr.tools.messages import one_line, short
 
 MAX_BYTES = 2**24  #: of a case file
@@ -97,6 +99,16 @@ def tried(make: Callable[..., Any], *given: Any, **named: Any) -> tuple[Any, lis
         return None, [*refusal.faults]
     except (TypeError, ValueError, ArithmeticError, LookupError) as refusal:
         return None, [one_line(str(refusal) or type(refusal).__name__)]
+
+
+def field_faults(
+    record: type[Any], given: Mapping[str, Any], ways_out: Mapping[Any, str], spoilt: Collection[str | None] = ()
+) -> list[str]:
+    """What is missing, but for what was `spoilt` already, then what each field refuses by its rule."""
+    refused = [tried(checked, one, given[one.name])[1] for one in fields(record) if one.init and one.name in given]
+    absent = [one.name for one in required(record) if one.name not in given and one.name not in spoilt]
+    missing = [f"{name} is missing" + (f"; {ways_out[name]}" if name in ways_out else "") for name in absent]
+    return missing + [fault for found in refused for fault in found]
 
 
 def parse_toml(text: str, source: str = "<string>") -> dict[str, Any]:

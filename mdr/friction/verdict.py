@@ -255,7 +255,7 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         reasons = ["all springs stop sticking at the velocity that the formula gives for one spring"]
     elif found.v_c is None or not reasons:
         reasons.append(found.why)
-    if case.tau_0 and case.edge_moves:
+    if case.strength_moves:
         reasons.append(_depends_on(case))
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)

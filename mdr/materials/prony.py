@@ -379,7 +379,7 @@ class Prony(_WithArms):
 
         if nu is not None:
             nu = poisson_ratio("nu", nu)
-        fields = from_table(path, nu, E_0, G_0, Reading(units, columns, skip, table))
+        fields = from_table(cls, path, nu, E_0, G_0, Reading(units, columns, skip, table))
         try:
             return cls(**fields)
         except (TypeError, ValueError) as refusal:

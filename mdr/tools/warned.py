@@ -20,7 +20,7 @@ def warn_outside(doubt: str) -> None:
 
 
 def asked_from_outside() -> bool:
-    """Whether code outside the package called the public function that calls what asks this first."""
+    """True if user code, not mdr, called the current public function."""
     public = _past_wrappers(sys._getframe(3))
     outside = _past_wrappers(public.f_back) if public is not None and is_ours(public) else public
     return outside is not None and not is_ours(outside)
