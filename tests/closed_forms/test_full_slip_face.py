@@ -1,6 +1,6 @@
 """Full slip, static limit and the tail of a face with a shear strength; beside runs they are tested by the claim."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -19,6 +19,22 @@ BALL = mdr.SlidingContact(mdr.Paraboloid(5e-3), RUBBER, 0.0, MOTION, tau_0=1e4)
 ARMS = mdr.Prony(3e6, ((4e6, 3 / OMEGA), (2e6, 0.3 / OMEGA)), 0.4, tau=TAU)
 UNIT = 2 * BALL.tau_0 / RUBBER.G_star * OMEGA
 BODY = mdr.SpringPull(k_x=2e3, m=0.01, c_x=2.0)
+
+
+@dataclass(frozen=True)
+class Spot(mdr.Friction):
+    """A strength in the middle alone."""
+
+    mu_0: float
+    tau_0: float
+    b: float
+
+    @property
+    def kinks(self):
+        return (self.b,)
+
+    def strong_radius(self, a):
+        return np.minimum(a, self.b)
 
 
 def by_springs(a, x):
@@ -187,3 +203,21 @@ def test_velocity_of_a_share_turns_the_law_round():
         mdr.laws.lost_at_the_edge(BALL, v)
     with pytest.raises(ValueError, match="is below mu_0 kappa omega du_z"):
         mdr.laws.lost_at_the_edge(case, 1e-3 * v)
+
+
+@pytest.mark.parametrize("pull", [mdr.RigidPull(), BODY], ids=["rigid", "body"])
+def test_a_strength_acts_on_the_radius_of_its_law(pull):
+    """As wide as the contact it is the face's, within the least contact a constant force; between them springs tell."""
+    face = replace(BALL, pull=pull, mu_0=0.3)
+    least, most = np.sqrt(5e-3 * np.array([DEPTH - 1.1 * MOTION.du_z, DEPTH + MOTION.du_z]))
+    for solve in (mdr.full_slip_critical_velocity, mdr.critical_velocity, mdr.static_cof):
+        assert solve(replace(face, friction=Spot(0.3, 1e4, most))) == pytest.approx(solve(face), rel=1e-6)
+    inner, plain = replace(face, friction=Spot(0.3, 1e4, 0.9 * least)), replace(face, tau_0=0.0)
+    assert mdr.full_slip_critical_velocity(inner) == mdr.full_slip_critical_velocity(plain)
+    assert mdr.static_cof(inner) > mdr.static_cof(plain)
+    if pull.is_rigid:
+        b = 0.5 * (least + most)
+        case = replace(BALL, friction=Spot(0.0, 1e4, b))
+        own = own_rate(case, lambda a, x: by_springs(np.minimum(a, b), x), np.linspace(0, 1, 400)[:-1])
+        assert mdr.full_slip_critical_velocity(case) == pytest.approx(own, rel=2e-3)
+        assert mdr.full_slip_critical_velocity(BALL) > 1.02 * own

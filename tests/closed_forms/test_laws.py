@@ -110,7 +110,7 @@ def test_at_the_least_v_c_depth_does_nothing():
     assert mdr.critical_velocity(there) / there.unit_velocity == pytest.approx(over, rel=1e-12)
     with pytest.raises(ValueError, match="no minimum"):
         laws.least_over_depth(case_of(pull=mdr.SpringPull(k_x=1e5, m=0.1)))
-    with pytest.raises(TypeError, match="SpringPull"):
+    with pytest.raises(TypeError, match="takes a body on a spring, got pull = RigidPull"):
         laws.least_over_depth(case_of(pull=mdr.RigidPull()))
 
 
