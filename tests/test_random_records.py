@@ -18,7 +18,9 @@ import pytest
 import random_records
 
 import mdr
-from mdr.case.pull import RigidPull, SpringPull
+from mdr.case.domain import domain_of
+from mdr.case.pull import SpringPull
+from mdr.closed_forms.rigid_pull import average_friction
 from mdr.files.examples import MATERIALS, SHAPES
 from mdr.normal.resolved import at_rest
 
@@ -159,7 +161,7 @@ def static(case, dice):
 
 def curve(case, dice):
     """Under a rigid pull, in closed form: between the static limit and mu_0, and never falling with velocity."""
-    if not isinstance(case.pull, RigidPull) or not case.is_of_the_paper:
+    if case not in domain_of(average_friction):
         return
     v = case.unit_velocity * np.array([0, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999, 1.0, 1.1, 1e3])
     found = mdr.cof_curve(case, v)

@@ -207,12 +207,6 @@ class Scales(InMotion):
         """Whether springs stick at any pull: those that the edge of a strength reaches, where there is no dashpot."""
         return self.strength_moves and self.T == 0
 
-    @property
-    def is_of_the_paper(self) -> bool:
-        """Whether depth is harmonic and material without arms: as in the paper, the normal force in closed form."""
-        prescribed = self.oscillation.knows_depth and self.oscillation.load is None
-        return prescribed and self.cycle.is_harmonic and not self.material.contact_arms
-
 
 def _fastest(omega: float, way: NDArray[np.complex128]) -> float:
     return float(np.sum(omega * np.arange(1, way.size + 1) * np.abs(way)))

@@ -12,9 +12,11 @@ from functools import partial
 
 import numpy as np
 
+from mdr.case.domain import domain_of
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.critical_velocity import POINTS, UP_TO, critical_velocity, velocity_scale
 from mdr.closed_forms.full_slip import static_cof
+from mdr.closed_forms.rigid_pull import average_friction
 from mdr.explorer.state import DECADE, State
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.shaken import HoldingBand, holder_of, holding_band
@@ -122,9 +124,10 @@ def at_once(state: State) -> Picture:
     if case.is_shaken:
         return picture
     picture = replace(picture, static=static_cof(case))
-    if not case.is_of_the_paper:
+    pulled_rigidly = replace(case, pull=RigidPull())
+    if pulled_rigidly not in domain_of(average_friction):
         return picture
-    rigid = cof_curve(replace(case, pull=RigidPull()), v_0)
+    rigid = cof_curve(pulled_rigidly, v_0)
     return replace(picture, cof=rigid.cof, curve=rigid) if case.pull.is_rigid else replace(picture, rigid=rigid.cof)
 
 

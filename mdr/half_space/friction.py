@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
+from mdr.case.domain import GIVEN_DEPTH, NO_ARMS, RIGID, Domain
 from mdr.half_space.influence import HalfSpace, Z
 from mdr.half_space.steps import Contact, Step
 from mdr.normal.normal_force import full_cof
@@ -19,6 +20,10 @@ from mdr.tools.progress import Ticker, time_is_over
 #: of the grid around the greatest contact; with coupling friction spreads it, by 9 % where beta mu_0 = 0.3: what is cut
 #: off then carries 1e-4 of F_z
 MARGIN = 1.06
+#: what can be judged
+JUDGED = Domain(
+    (RIGID, GIVEN_DEPTH, NO_ARMS), instead="mdr.slide; the depth under a load is that of mdr.resolved(case)"
+)
 BELOW = 1 - 1e-5  #: its limit, where a traction counts as that of a cell that sticks
 
 
@@ -109,17 +114,7 @@ def last_period(
 
 def contact_of(case: SlidingContact, settings: Settings) -> Contact:
     """The grid that holds the contact at its greatest, and the shape on it; ValueError for what it cannot judge."""
-    if not case.pull.is_rigid:
-        raise ValueError(f"the half-space takes a rigid pull, got {case.pull!r}: leave [pull] out")
-    if not case.oscillation.knows_depth:
-        raise ValueError(
-            f"the half-space takes a given depth, got {case.oscillation!r}: give u_z0, or mdr.resolved(case), which "
-            "has the depth under the load"
-        )
-    if case.material.contact_arms:
-        raise ValueError(
-            f"the half-space is elastic or Kelvin, got {case.material!r}: choose Elastic, ElasticPair or KelvinVoigt"
-        )
+    JUDGED.seen(case, "the half-space")
     shape, material, cells = case.indenter, case.material, settings.cells
     deepest = float(path(case, 1.0, settings)[0].max())
     beta = material.dundurs_beta if settings.coupled else 0.0

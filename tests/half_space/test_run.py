@@ -184,9 +184,15 @@ def test_a_time_limit_ends_a_run_unsettled():
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"pull": mdr.SpringPull(k_x=1e4)}, r"takes a rigid pull, got SpringPull.*leave \[pull\] out"),
-        ({"material": mdr.StandardLinearSolid(1e6, 1e6, 1e-3, 0.3)}, "is elastic or Kelvin, got .*choose Elastic"),
-        ({"oscillation": mdr.LoadOscillation(0.03, 0.01, 300.0)}, r"takes a given depth, got .*mdr.resolved\(case\)"),
+        ({"pull": mdr.SpringPull(k_x=1e4)}, r"takes a rigid pull, got pull = SpringPull.*ask mdr.slide"),
+        (
+            {"material": mdr.StandardLinearSolid(1e6, 1e6, 1e-3, 0.3)},
+            "takes an elastic or Kelvin material, got material = Standard",
+        ),
+        (
+            {"oscillation": mdr.LoadOscillation(0.03, 0.01, 300.0)},
+            r"takes a depth that is known, got oscillation = Load.*mdr.resolved\(case\)",
+        ),
     ],
 )
 def test_what_the_half_space_cannot_judge_is_refused_by_name(change, words):

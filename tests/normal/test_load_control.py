@@ -56,7 +56,6 @@ def test_the_record_says_where_the_depth_under_a_load_is_asked(name):
     with pytest.raises(ValueError, match=rf"{name}.* ask mdr.resolved\(case\)"):
         getattr(LOADED, name)
     assert getattr(mdr.resolved(LOADED), name) is not None
-    assert not LOADED.is_of_the_paper
     assert pytest.approx(0.3, rel=1e-15) == LOADED.T
 
 
