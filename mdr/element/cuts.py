@@ -53,8 +53,8 @@ def part(s, e, z_0, z_1, x_1, pieces, contact, T, modes, arms, tools, each):
     (h, of_arms, decay, _), room = tools
     tools = Tools(Times(h, of_arms, decay, pieces), room)
     fill_stages(h, STEP, arms, tools.times)
-    path = Path(z_0, z_1, 0.0, x_1, 0.0j, None)
-    of = returned(s, e, Springs(contact.gap, contact.w, None), path, T, modes, arms, tools, each)
+    path = Path(z_0, z_1, 0.0, x_1, 0.0j)
+    of = returned(s, e, Springs(contact.gap, contact.w), path, T, modes, arms, tools, each)
     return Pulled(of.end, of.normal_end, of.area, of.normal_area)
 
 

@@ -68,8 +68,8 @@ def _(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
 def _at_once(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
     h = tools.times.h
     z_1, x_1 = way_z / h, way_x / h
-    path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1, None)
-    of = row(s, e, Springs(contact.gap, contact.w, None), path, z_1, x_1, T, modes, arms, tools, None, each, None)
+    path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1)
+    of = row(s, e, Springs(contact.gap, contact.w), None, path, z_1, x_1, T, modes, arms, tools, None, each, None)
     return Pulled(of.end, of.normal_end, of.area, of.normal_area)
 
 
@@ -284,17 +284,8 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
     for _ in range(MOST_TRIALS):
         put(s, trial)
         rate = (x - z) / h
-        of = press(
-            trial,
-            Springs(contact.gap, contact.w, None),
-            Path(z, rate, 0.0, 0.0, 0.0, None),
-            rate,
-            T,
-            modes,
-            arms,
-            tools,
-            None,
-        )
+        springs, path = Springs(contact.gap, contact.w), Path(z, rate, 0.0, 0.0, 0.0)
+        of = press(trial, springs, path, rate, T, modes, arms, tools, None)
         off = of.normal_end - load
         if abs(off) <= BALANCED * scale:
             break

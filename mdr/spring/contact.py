@@ -8,12 +8,12 @@ the material (law.py) a spring
 * *flies*: s and e recover without force, L[s] = L[e] = 0, until the indenter meets the surface again, z - gap = s.
 
 All is scaled: normal lengths by some unit, tangential ones by mu_0 kappa times it, forces by the long-time stiffness,
-so that Coulomb's law is |L[e]| <= L[s]; a face with a shear strength has another limit (face.py).
+so that Coulomb's law is |L[e]| <= L[s].
 
-While it presses, friction changes e. `rub` (line.py, disc.py) computes this over a stretch of contact; None leaves it
-out.
+While it presses, friction changes e. `rub` (line.py, disc.py) computes this over a stretch of contact, under the limit
+|L[e]| <= L[q] (limit.py); None leaves it out.
 What happens is exact from event to event along a line, so that the only error of a step there is that of the parabolas;
-slip that turns (dragged.py) and a strength (face.py) are met to some order in the step. Elastic springs, dashpots
+slip that turns (dragged.py) and a strength (limit.py) are met to some order in the step. Elastic springs, dashpots
 (Kelvin) and Maxwell arms are one text: what a material lacks is None, and compiled away.
 """
 
@@ -33,10 +33,10 @@ from mdr.spring.energies import (
     NORMAL_WORK,
     SHEAR_VISCOUS,
     Nodes,
-    of_pressing,
+    lost_on_parabola,
     stored,
 )
-from mdr.spring.face import raise_to_limit, strength, strengths
+from mdr.spring.limit import Pressing, at_limit, limit_at, normal_part
 from mdr.spring.motion import alone, end_force, glassy, held_force, hold, into_modes, relax, until_alone, until_held
 from mdr.spring.path import (
     FAST,
@@ -65,7 +65,6 @@ class Springs(NamedTuple):
 
     gap: Array  #: (n,) motion z of the indenter at which each foot meets the surface
     w: Array  #: (n,) share of each spring in the stiffness
-    x2: Array | None = None  #: (n,) x² of each, in the unit of a Face; None where friction is Coulomb's alone
 
 
 class Answer(NamedTuple):
@@ -88,18 +87,6 @@ class Answer(NamedTuple):
     pressed: float  #: share that bears a normal force at the end
 
 
-class Pressing(NamedTuple):
-    """A stretch of contact: the motion of the top in it, and what counts as zero."""
-
-    z: tuple[float, float]  #: z_1, z_2 of the parabola of its depth, with the time from the start of the stretch
-    x: tuple[complex, complex]  #: x_1, x_2 of its displacement
-    t: float  #: length of the stretch
-    k: int  #: row of tools.times that is filled for t, STEP or PART
-    begun: float  #: when it begins in the step
-    tol: float  #: rounding of a length: what is less counts as zero, of forces and velocities too
-    rate_miss: tuple[float, complex]  #: true rates of the top at the end of the step, less those of the parabolas
-
-
 class Friction(NamedTuple):
     """Friction over a stretch of contact."""
 
@@ -110,8 +97,7 @@ class Friction(NamedTuple):
     moment: complex  #: its moment in time, from the start of the step
     stuck: float  #: time in stick
     stuck_moment: float  #: integral of t over it
-    normal_area: float
-    normal_moment: float
+    borne: tuple[float, float]  #: area and moment of L[q]; for the row, of the normal force
 
 
 class Each(NamedTuple):
@@ -134,12 +120,12 @@ class Look(NamedTuple):
 
 
 @_inline
-def lasts(presses, event, s, i, z_0, z_1, z_2, t, k, tol, G, T, modes, arms, tools):
+def lasts(presses, event, s, i, z, t, k, tol, G, T, modes, arms, tools):
     """Contact of spring i over a time t: whether it presses from now on, and the time to where it is let go, or
     touches; infinite where neither happens. At the start of a step one that touches may have to be let go at once;
-    later the event before has decided that.
+    later the event before has decided that. z: of the parabola of the depth to which it is pressed.
     """
-    x, until, fallen, rate, of_force = s[0, i], NEVER, 0.0, 0.0, tol * G
+    x, (z_0, z_1, z_2), until, fallen, rate, of_force = s[0, i], z, NEVER, 0.0, 0.0, tol * G
     if presses:
         normal = held_force(s, i, z_1, z_2, t, k, T, tools, arms)
         presses = event > 0 or not below(normal, of_force)
@@ -172,49 +158,60 @@ def within(f, R):
 
 
 @_inline
-def friction_on_face(face, springs, rub, s, e, i, pressing, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact, by `rub`. On a face with a strength, s and its motion are first
-    raised so that their force is the limit (face.py); after `rub`, s is what the stretch makes of it without that.
-    """
-    w = springs.w[i]
-    if face is None:
-        return rub(s, e, i, w, pressing, T, modes, arms, tools, look)
-    z, x, t, k, begun, tol, rate_miss = pressing
-    kept, x2 = tools.room.kept, springs.x2[i]
-    for j in range(s.shape[0]):
-        kept[j, 0] = s[j, i]
-    if look is not None:  # work and heat are those of the compression; the impulse is that of the limit
-        impulse = look.sums[CONTACT_IMPULSE]
-        of_pressing(look.sums, w, s, i, z[0], z[1], t, tools.times.h, look.nodes, T, modes, arms)
-        look.sums[CONTACT_IMPULSE] = impulse
-        work, viscous = look.sums[NORMAL_WORK], look.sums[NORMAL_VISCOUS]
-    A, B = hold(kept, 0, z[0], z[1], t, k, T, tools, arms)
-    q = raise_to_limit(s, i, z, strengths(face, x2, begun, t), t, face.coulomb, T, arms)
-    tol += ROUNDING * (abs(s[0, i]) + size_of(e[0, i]))
-    missed = face.coulomb * rate_miss[0], rate_miss[1]
-    of = rub(s, e, i, w, Pressing(q, x, t, k, begun, tol, missed), T, modes, arms, tools, look)
-    for j in range(s.shape[0]):
-        s[j, i] = kept[j, 0]
+def pressed_on(rub, limit, s, e, i, w, pressing, T, modes, arms, tools, look):
+    """A stretch of contact of spring i: its Friction, by `rub`, and its normal part; s and e are updated."""
+    (z_1, z_2), t, begun = pressing.z, pressing.t, pressing.begun
+    if rub is None:
+        area, moment = hold(s, i, z_1, z_2, t, pressing.k, T, tools, arms)
+        nothing = 0.0 * pressing.x[0]
+        return Friction(STICK, nothing, 0.0, nothing, nothing, 0.0, 0.0, (area, begun * area + moment))
     if look is not None:
-        look.sums[NORMAL_WORK], look.sums[NORMAL_VISCOUS] = work, viscous
-    return Friction(of.mode, of.n, of.vel, of.area, of.moment, of.stuck, of.stuck_moment, A, begun * A + B)
+        lost = lost_on_parabola(s, i, z_1, z_2, t, tools.times.h, look.nodes, T, modes, arms)
+        look.sums[NORMAL_VISCOUS] += w * lost
+    q, of_q, beside = at_limit(limit, s, e, i, pressing, T, arms, tools)
+    of = rub(q, e, i, w, of_q, T, modes, arms, tools, look)
+    area, moment = normal_part(limit, of.borne, beside)
+    if look is not None:
+        look.sums[CONTACT_IMPULSE] += w * of.borne[0]
+        look.sums[NORMAL_WORK] += w * ((z_1 - 2.0 * z_2 * begun) * area + 2.0 * z_2 * moment)
+    return Friction(of.mode, of.n, of.vel, of.area, of.moment, of.stuck, of.stuck_moment, (area, moment))
 
 
 @_inline
-def limit_of(face, springs, i, R, h):
-    """The limit of spring i at the end of a step, where its normal force is R."""
-    if face is None:
-        return R
-    return face.coulomb * R + strength(face, springs.x2[i], h)
+def fly(s, e, i, w, k, modes, arms, tools, look):
+    """Leave spring i alone for a time."""
+    before = 0.0, 0.0
+    if look is not None and modes is not None:
+        before = stored(s, i, arms), stored(e, i, arms)
+    if look is not None and modes is None:  # a shear strength may let it go with a force: it springs back
+        look.sums[FRICTION_LOSS] += w * stored(e, i, arms)
+    relax(s, i, k, modes, arms, tools.room.modes, tools.times)
+    if e is not None:
+        relax(e, i, k, modes, arms, tools.room.vectors, tools.times)
+    if look is not None and modes is not None:
+        look.sums[NORMAL_VISCOUS] += w * (before[0] - stored(s, i, arms))
+        look.sums[SHEAR_VISCOUS] += w * (before[1] - stored(e, i, arms))
 
 
 @_inline
-def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+def at_end(rub, limit, s, e, i, mode, n, rates, h, T, arms):
+    """Normal force and friction of spring i at the end of a step, in this mode; n: direction of its slip."""
+    R, f = 0.0, 0.0 * n
+    if mode != FREE:
+        R = max(end_force(s, i, rates[0], T, arms), 0.0)
+        if rub is not None:
+            most = limit_at(limit, i, R, h)
+            f = within(end_force(e, i, rates[1], T, arms), most) if mode == STICK else n * most
+    return R, f
+
+
+@_inline
+def one_row(rub, made, s, e, springs, limit, path, rates, T, modes, arms, tools, lumped, each, look):
     """Springs over a step; s and e (1 + J, n) are updated: row 0 the spring, the others its arms. An Answer comes out.
 
     rub: function of the friction over a stretch of contact, rub_line or rub_disc; or None, as e, for the normal part
-    alone. made (n,): not zero for springs that were stepped already; or None. T, modes, arms: of the law (law.py). The
-    others as of row.py. What is None is compiled away.
+    alone. made (n,): not zero for springs that were stepped already; or None. rates: those of the top at the end. T,
+    modes, arms: of the law (law.py). The others as of row.py. What is None is compiled away.
     """
     gap, w, h, G = springs.gap, springs.w, tools.times.h, glassy(arms)
     area = moment = end = nothing = 0.0 * path.x_1  # a number or a vector
@@ -222,7 +219,7 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
     normal_area = normal_moment = normal_end = pressed = 0.0
     if look is not None:
         look.F[2] = np.inf
-    rate_miss = (zd - path.z_1 - 2.0 * path.z_2 * h, xd - path.x_1 - 2.0 * path.x_2 * h)
+    rate_miss = (rates[0] - path.z_1 - 2.0 * path.z_2 * h, rates[1] - path.x_1 - 2.0 * path.x_2 * h)
     for i in range(gap.size):
         if made is not None and made[i] != 0.0:
             continue
@@ -233,39 +230,23 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
         if presses:
             s[0, i] = z_0
         for event in range(MOST_EVENTS):
-            presses, until = lasts(presses, event, s, i, z_0, z_1, path.z_2, t, k, tol, G, T, modes, arms, tools)
+            z = z_0, z_1, path.z_2
+            presses, until = lasts(presses, event, s, i, z, t, k, tol, G, T, modes, arms, tools)
             ends = until < t
             if ends:
                 t, k = until, PART
                 fill(t, modes, arms, tools.times, PART)
             if not presses:
-                mode, pressed_for, before = FREE, 0.0, (0.0, 0.0)
-                if look is not None and modes is not None:
-                    before = stored(s, i, arms), stored(e, i, arms)
-                if look is not None and modes is None:  # a shear strength may let it go with a force: it springs back
-                    look.sums[FRICTION_LOSS] += w[i] * stored(e, i, arms)
-                relax(s, i, k, modes, arms, tools.room.modes, tools.times)
-                if e is not None:
-                    relax(e, i, k, modes, arms, tools.room.vectors, tools.times)
-                if look is not None and modes is not None:
-                    look.sums[NORMAL_VISCOUS] += w[i] * (before[0] - stored(s, i, arms))
-                    look.sums[SHEAR_VISCOUS] += w[i] * (before[1] - stored(e, i, arms))
+                mode, pressed_for = FREE, 0.0
+                fly(s, e, i, w[i], k, modes, arms, tools, look)
             elif t > ROUNDING * h:
-                pressed_for += t
-                if rub is None:
-                    A, B = hold(s, i, z_1, path.z_2, t, k, T, tools, arms)
-                    mode = STICK
-                    normal_area += w[i] * A
-                    normal_moment += w[i] * (done * A + B)
-                else:
-                    x = path.x_1 + 2.0 * path.x_2 * done, path.x_2
-                    pressing = Pressing((z_1, path.z_2), x, t, k, done, tol, rate_miss)
-                    of = friction_on_face(path.face, springs, rub, s, e, i, pressing, T, modes, arms, tools, look)
-                    mode, n, vel = of.mode, of.n, of.vel
-                    area, moment = area + w[i] * of.area, moment + w[i] * of.moment
-                    stuck, stuck_moment = stuck + w[i] * of.stuck, stuck_moment + w[i] * of.stuck_moment
-                    normal_area += w[i] * of.normal_area
-                    normal_moment += w[i] * of.normal_moment
+                x = path.x_1 + 2.0 * path.x_2 * done, path.x_2
+                pressing = Pressing((z_1, path.z_2), x, t, k, done, tol, rate_miss)
+                of = pressed_on(rub, limit, s, e, i, w[i], pressing, T, modes, arms, tools, look)
+                mode, n, vel, pressed_for = of.mode, of.n, of.vel, pressed_for + t
+                area, moment = area + w[i] * of.area, moment + w[i] * of.moment
+                stuck, stuck_moment = stuck + w[i] * of.stuck, stuck_moment + w[i] * of.stuck_moment
+                normal_area, normal_moment = normal_area + w[i] * of.borne[0], normal_moment + w[i] * of.borne[1]
             if not ends:
                 break
             if look is not None and presses and t > ROUNDING * h:
@@ -278,21 +259,14 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
                 s[0, i] = z_0
             t, k = h - done, PART
             fill(t, modes, arms, tools.times, PART)
-        R, f = 0.0, nothing
+        R, f = at_end(rub, limit, s, e, i, mode, n, rates, h, T, arms)
         if mode != FREE:
-            R = max(end_force(s, i, zd, T, arms), 0.0)
-            normal_end += w[i] * R
-            pressed += w[i] if R > 0.0 else 0.0
-            if rub is not None:
-                most = limit_of(path.face, springs, i, R, h)
-                f = within(end_force(e, i, xd, T, arms), most) if mode == STICK else n * most
-                end += w[i] * f
-                sticking += w[i] if mode == STICK else 0.0
-                back += w[i] if mode == SLIP_BACK else 0.0
-                if lumped is not None:
-                    for j in range(s.shape[0]):
-                        left = e[j, i] - s[j, i] if mode == STICK else -2.0 * s[j, i] if mode == SLIP_BACK else 0.0
-                        lumped[j, 0] += w[i] * left
+            end, normal_end, pressed = end + w[i] * f, normal_end + w[i] * R, pressed + (w[i] if R > 0.0 else 0.0)
+            sticking, back = sticking + (w[i] if mode == STICK else 0.0), back + (w[i] if mode == SLIP_BACK else 0.0)
+            if lumped is not None:
+                for j in range(s.shape[0]):
+                    left = e[j, i] - s[j, i] if mode == STICK else -2.0 * s[j, i] if mode == SLIP_BACK else 0.0
+                    lumped[j, 0] += w[i] * left
         if each is not None:
             each.pressed_for[i], each.f[i], each.f_z[i] = pressed_for / h if h > 0.0 else 0.0, f, R
         if look is not None:
@@ -309,4 +283,4 @@ def one_row(rub, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumpe
 @_lent
 def press(s, springs, path, zd, T, modes, arms, tools, each):
     """The normal part of `row` (row.py) alone; s is updated."""
-    return one_row(None, None, s, None, springs, path, zd, 0.0, T, modes, arms, tools, None, each, None)
+    return one_row(None, None, s, None, springs, None, path, (zd, 0.0), T, modes, arms, tools, None, each, None)

@@ -1,5 +1,5 @@
-"""Coulomb friction in the plane: |L[e]| <= R in length, with the extension e (a vector) and R = L[s], over a stretch of
-contact: a disc in the place of the interval of line.py.
+"""Friction in the plane: |L[e]| <= R in length, with the extension e (a vector) and R = L[q] (limit.py), over a stretch
+of contact: a disc in the place of the interval of line.py.
 
 * *stick*: e goes with the top, L[e] is known, until its length comes to R;
 * *slip*: |L[e]| = R, along the slip velocity, which turns (dragged.py), until it comes to zero.
@@ -15,7 +15,7 @@ from typing import NamedTuple
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, STICK
 from mdr.spring.dragged import EVEN, TINY, Slip, slides, yielded
-from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_pressing
+from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola
 from mdr.spring.law import phi_of
 from mdr.spring.motion import end_force, glassy, held_force, hold
 from mdr.spring.path import FAST_IN_PLANE, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, cubic_later, size_of, slope
@@ -396,13 +396,11 @@ def start_of(e, i, top, R, h, G, T, arms):
 
 
 @_inline
-def rub_disc(s, e, i, w, pressing, T, modes, arms, tools, look):
+def rub_disc(q, e, i, w, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, as rub_line of line.py."""
     z, x, t, k, begun, tol, _ = pressing
-    h, G, R = tools.times.h, glassy(arms), cubic(held_force(s, i, z[0], z[1], t, k, T, tools, arms), t)
-    if look is not None:
-        of_pressing(look.sums, w, s, i, z[0], z[1], t, h, look.nodes, T, modes, arms)
-    pressed, pressed_moment = hold(s, i, z[0], z[1], t, k, T, tools, arms)
+    h, G, R = tools.times.h, glassy(arms), cubic(held_force(q, i, z[0], z[1], t, k, T, tools, arms), t)
+    borne, borne_moment = hold(q, i, z[0], z[1], t, k, T, tools, arms)
     gone, zeros, mode, n, vel, top = 0.0, 0, BEGINS, 0.0j, 0.0, Parabola(x[0], x[1])
     area, moment, stuck, stuck_moment = 0.0j, 0.0j, 0.0, 0.0
     for _ in range(MOST_EVENTS):
@@ -433,4 +431,4 @@ def rub_disc(s, e, i, w, pressing, T, modes, arms, tools, look):
         top, R = Parabola(top.p + 2.0 * of.t * top.q, top.q), cubic_later(R, of.t)
         if not of.lasts:
             mode = STICK if mode == SLIP else SLIP
-    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, begun * pressed + pressed_moment)
+    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, (borne, begun * borne + borne_moment))

@@ -5,7 +5,7 @@ With the trial force g = L[e] + T (x' - e') of a dashpot that would stick, x' th
     g = (R + T vel) n,    T vel' + G vel = v.n - R',    n' (R + T vel) = v - (v.n) n,
     v = G x' + T x'' - sum rho_j e_j/theta_j
 
-with the direction n of slip and force, the slip velocity vel >= 0, the disc R = L[s] and the modulus at once
+with the direction n of slip and force, the slip velocity vel >= 0, the disc R = L[q] and the modulus at once
 G = 1 + sum rho_j. This is Coulomb's law and L, nothing else; it is the clipped trial force of a Kelvin spring, and for
 T = 0 the end of an elastic spring that is dragged on a leash of length R, a tractrix.
 

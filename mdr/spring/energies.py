@@ -112,30 +112,6 @@ def lost_on(nodes, x, i, p, q, T, arms):
 
 
 @_own
-def of_pressing(sums, w, s, i, z_1, z_2, t, h, whole, T, modes, arms):
-    """The normal part of a stretch of contact of a time t: the impulse of its force is answered.
-
-    whole: the rule over the step of h. What makes arrays is not lent any.
-    """
-    impulse, work, nodes = 0.0, 0.0, whole if t == h else nodes_of(t, modes, arms)
-    for g in range(nodes.u.size):
-        u = nodes.u[g]
-        rate = z_1 + 2.0 * z_2 * u
-        normal = s[0, i] + u * (z_1 + z_2 * u) + T * rate
-        if arms is not None:
-            for j in range(arms.rho.size):
-                normal += arms.rho[j] * (
-                    s[1 + j, i] * nodes.phi[g, 0, j] + z_1 * nodes.phi[g, 1, j] + z_2 * nodes.phi[g, 2, j]
-                )
-        impulse += nodes.weight[g] * normal
-        work += nodes.weight[g] * normal * rate
-    sums[CONTACT_IMPULSE] += w * impulse
-    sums[NORMAL_WORK] += w * work
-    sums[NORMAL_VISCOUS] += w * lost_on(nodes, s, i, z_1, z_2, T, arms)
-    return impulse
-
-
-@_own
 def lost_on_parabola(x, i, p, q, t, h, whole, T, modes, arms):
     """Heat of dashpot and arms of x[:, i] over a time t in which it is held on p t + q t²."""
     return lost_on(whole if t == h else nodes_of(t, modes, arms), x, i, p, q, T, arms)

@@ -1,12 +1,12 @@
-"""Coulomb friction along a line: |L[e]| <= L[s] (mu_0 is in the unit of e), over a stretch of contact, exact from event
-to event.
+"""Friction along a line: |L[e]| <= L[q], of a q that is known (limit.py; mu_0 is in the unit of e), over a stretch of
+contact, exact from event to event.
 
 =========  ===========  =======================  =====================================
 mode       what moves   what is left alone       it ends where
 =========  ===========  =======================  =====================================
-stick      e with x     nothing                  |L[e]| comes to L[s]: slip
-slip       e with s     s - e (so L[e] = L[s])   the slip velocity x' - e' is zero: stick
-slip back  e with -s    s + e (L[e] = -L[s])     likewise
+stick      e with x     nothing                  |L[e]| comes to L[q]: slip
+slip       e with q     q - e (so L[e] = L[q])   the slip velocity x' - e' is zero: stick
+slip back  e with -q    q + e (L[e] = -L[q])     likewise
 =========  ===========  =======================  =====================================
 """
 
@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, SLIP_BACK, STICK
-from mdr.spring.energies import LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_pressing, of_slipping
+from mdr.spring.energies import LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_slipping
 from mdr.spring.motion import alone, held_force, hold, into_modes, of_modes, until_alone, until_held
 from mdr.spring.path import FAST, LENT, NEVER, below, on_parabola, plus, stays
 from mdr.spring.times import PART, fill
@@ -28,7 +28,7 @@ BEGINS = -1  #: the mode is still to be found
 
 
 @_inner
-def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
+def slip_velocity(mode, q, e, i, share, z_1, x_1, rate_miss, modes):
     """Velocity of the foot over the plane: zero in stick, positive in slip, negative in slip back.
 
     share: time from the start of the step, over h. z_1, x_1: rates of the parabolas then. The true path is a cubic: its
@@ -41,80 +41,108 @@ def slip_velocity(mode, s, e, i, share, z_1, x_1, rate_miss, modes):
     if modes is not None:
         for k in range(modes.mu.size):
             m = 0.0
-            for j in range(s.shape[0]):
-                m += modes.into[k, j] * (s[j, i] - sign * e[j, i])
+            for j in range(q.shape[0]):
+                m += modes.into[k, j] * (q[j, i] - sign * e[j, i])
             rate -= modes.mu[k] * modes.out[0, k] * m
     return sign * (sign * (x_1 + bend * rate_miss[1]) - (z_1 + bend * rate_miss[0]) + rate)
 
 
 @_inline
-def rub_line(s, e, i, w, pressing, T, modes, arms, tools, look):
-    """Friction of spring i over a stretch of contact, `pressing`; s and e are updated. look: None or Look."""
+def mode_at_begin(ahead, behind, tol):
+    """The mode in which a stretch of contact begins; ahead, behind: margins to slip and to slip back."""
+    forward, backward = below(ahead, tol), below(behind, tol)
+    if forward and (ahead.v_0 <= behind.v_0 or not backward):
+        return SLIP
+    return SLIP_BACK if backward else STICK
+
+
+@_inline
+def until_slip(margins, q, e, i, z, x, u, tol, T, modes, arms, tools):
+    """Time at which a spring that sticks slips, infinite if it does not, and the mode that follows."""
+    (ahead, behind), until, after = margins, NEVER, SLIP
+    if not stays(ahead, u, tol):
+        p, p_2, left = z[0] - x[0], z[1] - x[1], q[0, i] - e[0, i]
+        until = until_held(ahead, left, q, e, i, 1.0, -1.0, p, p_2, u, tol, T, modes, arms, tools)
+    if not stays(behind, u, tol):
+        p, p_2, left = z[0] + x[0], z[1] + x[1], q[0, i] + e[0, i]
+        back = until_held(behind, left, q, e, i, 1.0, 1.0, p, p_2, u, tol, T, modes, arms, tools)
+        until, after = (back, SLIP_BACK) if back < until else (until, after)
+    return until, after
+
+
+@_inline
+def until_stick(sign, q, e, i, z, x, u, k, tol, modes, arms, tools):
+    """Time at which a spring that slips in the direction `sign` sticks, infinite if it does not."""
+    lag, rate, fallen = q[0, i] - sign * e[0, i], 0.0, 0.0
+    if arms is not None:
+        _, left_rate = into_modes(q, e, i, sign, k, tools, modes)
+    else:
+        if modes is not None:
+            rate, fallen = modes.mu[0], tools.times.decay[k, 0]
+        _, left_rate = alone(lag, rate, fallen)
+    p, p_2 = sign * x[0] - z[0], 2.0 * (sign * x[1] - z[1])
+    slips = plus(left_rate, 1.0, on_parabola(p, p_2, 0.0, 0.0, u))
+    if stays(slips, u, tol):
+        return NEVER
+    return until_alone(slips, p, p_2, 0.0, lag, True, u, tol, modes, arms, tools)
+
+
+@_inline
+def slip_on(sign, lag, q, e, i, k, modes, arms, tools):
+    """Extension at the end of a time of slip, after q: q - sign e is left alone."""
+    if arms is not None:
+        for j in range(q.shape[0]):
+            e[j, i] = sign * (q[j, i] - of_modes(j, k, tools.room.modes, tools.times, modes))
+    else:
+        fallen = 0.0
+        if modes is not None:
+            fallen = tools.times.decay[k, 0]
+        e[0, i] = sign * (q[0, i] - lag * fallen)
+
+
+@_inline
+def rub_line(q, e, i, w, pressing, T, modes, arms, tools, look):
+    """Friction of spring i over a stretch of contact, `pressing`; q and e are updated. look: None or Look."""
     z, x, t, k, begun, tol, rate_miss = pressing
     h, gone, mode = tools.times.h, 0.0, BEGINS
-    area = moment = stuck = stuck_moment = pressed = pressed_moment = 0.0
+    area = moment = stuck = stuck_moment = borne = borne_moment = 0.0
     for _ in range(MOST_EVENTS):
-        u, s_0, e_0 = t - gone, s[0, i], e[0, i]
-        (z_1, z_2), (x_1, x_2) = (z[0] + 2.0 * z[1] * gone, z[1]), (x[0] + 2.0 * x[1] * gone, x[1])
-        press = held_force(s, i, z_1, z_2, u, k, T, tools, arms)
+        u, (z_1, z_2), (x_1, x_2) = t - gone, (z[0] + 2.0 * z[1] * gone, z[1]), (x[0] + 2.0 * x[1] * gone, x[1])
+        most = held_force(q, i, z_1, z_2, u, k, T, tools, arms)
         shear = held_force(e, i, x_1, x_2, u, k, T, tools, arms)
-        ahead, behind = plus(press, -1.0, shear), plus(press, 1.0, shear)
+        ahead, behind = plus(most, -1.0, shear), plus(most, 1.0, shear)
         if mode == BEGINS:
-            forward, backward = below(ahead, tol), below(behind, tol)
-            mode = SLIP_BACK if backward else STICK
-            if forward and (ahead.v_0 <= behind.v_0 or not backward):
-                mode = SLIP
+            mode = mode_at_begin(ahead, behind, tol)
             if look is not None and begun > 0.0:
-                vel = slip_velocity(mode, s, e, i, begun / h, z_1, x_1, rate_miss, modes)
+                vel = slip_velocity(mode, q, e, i, begun / h, z_1, x_1, rate_miss, modes)
                 look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], vel)
         # when the mode ends, and what follows
-        until, after, sign, lag, fallen = NEVER, STICK, -1.0 if mode == SLIP_BACK else 1.0, 0.0, 0.0
+        after, sign = STICK, -1.0 if mode == SLIP_BACK else 1.0
+        lag, parabolas = q[0, i] - sign * e[0, i], ((z_1, z_2), (x_1, x_2))
         if mode == STICK:
-            if not stays(ahead, u, tol):
-                p, q, after = z_1 - x_1, z_2 - x_2, SLIP
-                until = until_held(ahead, s_0 - e_0, s, e, i, 1.0, -1.0, p, q, u, tol, T, modes, arms, tools)
-            if not stays(behind, u, tol):
-                p, q = z_1 + x_1, z_2 + x_2
-                back = until_held(behind, s_0 + e_0, s, e, i, 1.0, 1.0, p, q, u, tol, T, modes, arms, tools)
-                until, after = (back, SLIP_BACK) if back < until else (until, after)
+            until, after = until_slip((ahead, behind), q, e, i, *parabolas, u, tol, T, modes, arms, tools)
         else:
-            lag, rate = s_0 - sign * e_0, 0.0
-            if arms is not None:
-                _, left_rate = into_modes(s, e, i, sign, k, tools, modes)
-            else:
-                if modes is not None:
-                    rate, fallen = modes.mu[0], tools.times.decay[k, 0]
-                _, left_rate = alone(lag, rate, fallen)
-            p, q = sign * x_1 - z_1, 2.0 * (sign * x_2 - z_2)
-            slips = plus(left_rate, 1.0, on_parabola(p, q, 0.0, 0.0, u))
-            if not stays(slips, u, tol):
-                until = until_alone(slips, p, q, 0.0, lag, True, u, tol, modes, arms, tools)
+            until = until_stick(sign, q, e, i, *parabolas, u, k, tol, modes, arms, tools)
         ends = until < u
         if ends:
             u, k = until, PART
             fill(u, modes, arms, tools.times, PART)
         if look is not None:
-            impulse = of_pressing(look.sums, w, s, i, z_1, z_2, u, h, look.nodes, T, modes, arms)
             if mode == STICK:
-                look.sums[STICK_IMPULSE] += w * impulse
                 lost = lost_on_parabola(e, i, x_1, x_2, u, h, look.nodes, T, modes, arms)
                 look.sums[SHEAR_VISCOUS] += w * lost
             else:
-                parabolas = (z_1, z_2), (x_1, x_2)
-                of_slipping(look.sums, w, sign, s, e, i, *parabolas, u, h, look.nodes, T, modes, arms, tools.room.work)
+                of_slipping(look.sums, w, sign, q, e, i, *parabolas, u, h, look.nodes, T, modes, arms, tools.room.work)
         # the state after that time
-        A, B = hold(s, i, z_1, z_2, u, k, T, tools, arms)
-        pressed, pressed_moment = pressed + A, pressed_moment + (begun + gone) * A + B
+        A, B = hold(q, i, z_1, z_2, u, k, T, tools, arms)
+        borne, borne_moment = borne + A, borne_moment + (begun + gone) * A + B
         if mode == STICK:
+            if look is not None:
+                look.sums[STICK_IMPULSE] += w * A
             A, B = hold(e, i, x_1, x_2, u, k, T, tools, arms)
             stuck, stuck_moment = stuck + u, stuck_moment + u * (begun + gone + 0.5 * u)
-        elif arms is not None:
-            for j in range(s.shape[0]):
-                e[j, i] = sign * (s[j, i] - of_modes(j, k, tools.room.modes, tools.times, modes))
         else:
-            if modes is not None:
-                fallen = tools.times.decay[k, 0]
-            e[0, i] = sign * (s[0, i] - lag * fallen)
+            slip_on(sign, lag, q, e, i, k, modes, arms, tools)
         area, moment = area + sign * A, moment + sign * ((begun + gone) * A + B)
         if not ends:
             break
@@ -123,6 +151,6 @@ def rub_line(s, e, i, w, pressing, T, modes, arms, tools, look):
     vel = 0.0
     if look is not None:
         z_end, x_end = z[0] + 2.0 * z[1] * t, x[0] + 2.0 * x[1] * t
-        vel = slip_velocity(mode, s, e, i, (begun + t) / h, z_end, x_end, rate_miss, modes)
+        vel = slip_velocity(mode, q, e, i, (begun + t) / h, z_end, x_end, rate_miss, modes)
     n = -1.0 if mode == SLIP_BACK else 1.0
-    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, pressed_moment)
+    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, (borne, borne_moment))

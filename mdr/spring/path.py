@@ -22,17 +22,6 @@ NEVER = np.inf
 ROUNDING = 4e-15  #: of a length, and of a time in a step
 
 
-class Face(NamedTuple):
-    """The limit of friction of a face with a shear strength in a step: a share of the normal force, and what the
-    strength adds, which is sqrt(a² - x²) of a spring at x, a the radius of contact (face.py).
-    """
-
-    coulomb: float  #: share of the normal force of a spring, over its stiffness, that friction bears
-    a_0: float  #: a² = a_0 + a_1 t + a_2 t², in a unit in which the root is a force over the stiffness
-    a_1: float
-    a_2: float
-
-
 class Path(NamedTuple):
     """Motion of the top in a step: its depth z_0 + z_1 t + z_2 t², its displacement x_1 t + x_2 t² in the plane."""
 
@@ -41,7 +30,6 @@ class Path(NamedTuple):
     z_2: float
     x_1: complex  #: a number where all moves along one line
     x_2: complex
-    face: Face | None = None  #: what the edge of contact does; None where friction is Coulomb's alone
 
 
 class Ends(NamedTuple):

@@ -1,7 +1,7 @@
-"""Coulomb friction in the plane, as disc.py, on a straight path by a return map: for steps of any length beside the
+"""Friction in the plane, as disc.py, on a straight path by a return map: for steps of any length beside the
 times of arms and dashpot.
 
-A spring that would stick has the trial force g. Where g is longer than R = L[s], it slips with the velocity that brings
+A spring that would stick has the trial force g. Where g is longer than R = L[q], it slips with the velocity that brings
 its force to the length R in the direction of g, after the time that the map is made for. The extension is straight in
 two parts of the time, by the implicit Runge-Kutta method of two stages that is stiffly accurate (Alexander 1977), of
 second order; arms and dashpot go with it exactly. So the work is that of this path: what is lost in it is R times the
@@ -45,7 +45,7 @@ def slip_back(g, R, soft):
 
 
 @_inline
-def rub_returned(s, e, i, w, pressing, T, modes, arms, tools, look):
+def rub_returned(q, e, i, w, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, as rub_line of line.py, in `tools.times.pieces`; top and surface
     are on straight paths.
     """
@@ -58,17 +58,17 @@ def rub_returned(s, e, i, w, pressing, T, modes, arms, tools, look):
     if arms is not None:
         for j in range(arms.rho.size):
             soft += arms.rho[j] * tools.times.arms[at + NODE, 1, j]
-    area, moment, stuck, stuck_moment, pressed, pressed_moment = 0.0j, 0.0j, 0.0, 0.0, 0.0, 0.0
+    area, moment, stuck, stuck_moment, borne, borne_moment = 0.0j, 0.0j, 0.0, 0.0, 0.0, 0.0
     mode, n, vel = STICK, 0.0j, 0.0
     for _ in range(tools.times.pieces):
-        R = held_force(s, i, z, 0.0, u, at + NODE, T, tools, arms).v_1
-        A, B = hold(s, i, z, 0.0, piece, at + PIECE, T, tools, arms)
-        pressed, pressed_moment = pressed + A, pressed_moment + now * A + B
+        R = held_force(q, i, z, 0.0, u, at + NODE, T, tools, arms).v_1
+        A, B = hold(q, i, z, 0.0, piece, at + PIECE, T, tools, arms)
+        borne, borne_moment = borne + A, borne_moment + now * A + B
         slip = slip_back(held_force(e, i, x, straight, u, at + NODE, T, tools, arms).v_1, R, soft)
         early, lever = hold(e, i, x - slip, straight, piece - u, at + TURN, T, tools, arms)
         moment += now * early + lever
         g = held_force(e, i, x, straight, u, at + NODE, T, tools, arms).v_1
-        slip = slip_back(g, end_force(s, i, z, T, arms), soft)
+        slip = slip_back(g, end_force(q, i, z, T, arms), soft)
         late, lever = hold(e, i, x - slip, straight, u, at + NODE, T, tools, arms)
         area, moment, vel = area + early + late, moment + (now + piece - u) * late + lever, size_of(slip)
         mode, n = STICK, 0.0j
@@ -77,11 +77,11 @@ def rub_returned(s, e, i, w, pressing, T, modes, arms, tools, look):
         else:
             stuck, stuck_moment = stuck + piece, stuck_moment + piece * (now + 0.5 * piece)
         now += piece
-    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, pressed, pressed_moment)
+    return Friction(mode, n, vel, area, moment, stuck, stuck_moment, (borne, borne_moment))
 
 
 @_lent
 def returned(s, e, springs, path, T, modes, arms, tools, each):
     """A row of springs on a straight path: their Answer; s, e (1 + J, n), updated. tools: with stages of their step."""
     zd, xd = path.z_1, path.x_1
-    return one_row(rub_returned, None, s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, None)
+    return one_row(rub_returned, None, s, e, springs, None, path, (zd, xd), T, modes, arms, tools, None, each, None)

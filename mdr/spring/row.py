@@ -1,11 +1,12 @@
 """The step of a row of springs with friction, `row`: along a line, or in the plane where e is complex. Lengths are
-scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py). Without arms, a look
-and a face, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
+scaled so that Coulomb's law has no coefficient. Without friction it is `press` (contact.py). Without arms and a look,
+under Coulomb's limit, springs that do one thing for all of the step go first (whole.py), then the others (contact.py).
 
-springs: Springs. s, e (1 + J, n), updated: row 0 is compression and extension, row j the stretch of arm j. zd, xd:
-rates of the top at the end of the step. tools: of the step and of so many springs (times.py). lumped, along a line:
-None, or a state (1 + J, 1) for `as_they_are`, filled with the sum of w (e - s) of springs that stick at the end, and of
--2 w s of those that slip back. each: None or Each. look: None or Look. Out comes an Answer.
+springs: Springs. limit: of friction in the step (limit.py). s, e (1 + J, n), updated: row 0 is compression and
+extension, row j the stretch of arm j. zd, xd: rates of the top at the end of the step. tools: of the step and of so
+many springs (times.py). lumped, along a line: None, or a state (1 + J, 1) for `as_they_are`, filled with the sum of
+w (e - s) of springs that stick at the end, and of -2 w s of those that slip back. each: None or Each. look: None or
+Look. Out comes an Answer.
 """
 
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
@@ -19,7 +20,7 @@ from mdr.spring.contact import Answer, one_row
 from mdr.spring.disc import rub_disc
 from mdr.spring.line import rub_line
 from mdr.spring.motion import end_force, hold
-from mdr.spring.path import FAST, LENT, Path
+from mdr.spring.path import FAST, LENT
 from mdr.spring.times import STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.compiler import Complex, NoneType, overload
@@ -27,21 +28,21 @@ from mdr.tools.jit import inner
 from mdr.tools.linked import LINKED
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
-# inlined by LLVM: a call would copy its arguments, arrays in named tuples, word by word, as costly as the springs
+# inlined by LLVM: a call copies every array descriptor, which costs as much as the step
 _LENT: Any = {"forceinline": True, "error_model": "numpy", "fastmath": FAST, **LENT, **LINKED}
 _lent = inner(error_model="numpy", fastmath=FAST, **LENT)
 
 
-def row(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+def row(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     """The step; a compiled function calls it."""
-    lean = arms is None and look is None and path.face is None
+    lean = arms is None and look is None and limit is None
     of = _row(np.iscomplexobj(e), lean, lean and each is None)
-    return of(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
+    return of(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look)
 
 
 @overload(row, inline="never", jit_options=_LENT)
-def _(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
-    lean = all(isinstance(one, NoneType) for one in (arms, look, path.types[Path._fields.index("face")]))
+def _(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+    lean = all(isinstance(one, NoneType) for one in (arms, look, limit))
     return _row(isinstance(e.dtype, Complex), lean, lean and isinstance(each, NoneType))
 
 
@@ -52,27 +53,27 @@ def _row(in_plane, lean_in_plane, lean):
     return _on_line_lean if lean else _on_line
 
 
-def _on_line(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+def _on_line(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     if lumped is not None:
         lumped[:] = 0.0
-    return one_row(rub_line, None, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
+    return one_row(rub_line, None, s, e, springs, limit, path, (zd, xd), T, modes, arms, tools, lumped, each, look)
 
 
-def _on_line_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+def _on_line_lean(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     if lumped is not None:
         lumped[:] = 0.0
     gap, w, made = springs.gap, springs.w, tools.room.whole
     require_room(made, gap)
     of = whole_on_line(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, lumped, made)
-    rest = one_row(rub_line, made, s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look)
+    rest = one_row(rub_line, made, s, e, springs, limit, path, (zd, xd), T, modes, arms, tools, lumped, each, look)
     return both(of, rest)
 
 
-def _in_plane(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
-    return one_row(rub_disc, None, s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
+def _in_plane(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+    return one_row(rub_disc, None, s, e, springs, limit, path, (zd, xd), T, modes, arms, tools, None, each, look)
 
 
-def _in_plane_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, each, look):
+def _in_plane_lean(s, e, springs, limit, path, zd, xd, T, modes, arms, tools, lumped, each, look):
     gap, w, made = springs.gap, springs.w, tools.room.whole
     require_room(made, gap)
     of = whole_in_plane(s[0], e[0], gap, w, path, zd, xd, tools.times.h, T, modes, each, made)
@@ -81,7 +82,7 @@ def _in_plane_lean(s, e, springs, path, zd, xd, T, modes, arms, tools, lumped, e
         if whole != 0.0:
             s[0, i], e[0, i] = made[4 * i], complex(made[4 * i + 1], made[4 * i + 2])
         made[i] = whole
-    rest = one_row(rub_disc, made, s, e, springs, path, zd, xd, T, modes, arms, tools, None, each, look)
+    rest = one_row(rub_disc, made, s, e, springs, limit, path, (zd, xd), T, modes, arms, tools, None, each, look)
     return both(of, rest)
 
 

@@ -107,12 +107,12 @@ def period(s, gap, w, z, z_dot, T, modes, arms, sums, force, pressed_for):  # ty
     each = Each(np.empty(n), np.empty(n), np.empty(n))
     for k in range(n_t):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
-        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0, None)
+        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, 0.0, 0.0)
         before, flies = 0.0, True
         for i in range(n):
             before += w[i] * s[0, i]
             flies = flies and s[0, i] > z[k] - gap[i]
-        of = press(s, Springs(gap, w, None), path, z_dot[k + 1], T, modes, arms, tools, each)
+        of = press(s, Springs(gap, w), path, z_dot[k + 1], T, modes, arms, tools, each)
         pressed, flight = 0.0, 0.0
         for i in range(n):
             pressed = max(pressed, each.pressed_for[i])

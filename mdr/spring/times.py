@@ -30,7 +30,7 @@ class Room(NamedTuple):
     modes: Array  #: (K,) of a compression, or of what is left alone in slip
     vectors: Array  #: (K,) of an extension, of its type
     work: Array  #: (J + K,) of a function whose zero is sought, or of the account of energies
-    kept: Array  #: (1 + J, 1) of a compression
+    q: Array  #: (1 + J, n) states whose force is the limit of friction, where that is not Coulomb's (limit.py)
     whole: Array  #: (4 n,) of n springs in a row with friction: what becomes of those that do one thing (whole.py)
 
 
@@ -79,7 +79,7 @@ def new_tools(h, modes, arms, zero, n):
     J, K = times.arms.shape[2], times.decay.shape[1]
     of_modes = np.zeros(K)
     vectors = of_modes * zero
-    return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty((1 + J, 1)), np.empty(4 * n)))
+    return Tools(times, Room(of_modes, vectors, np.empty(J + K), np.empty((1 + J, n)), np.empty(4 * n)))
 
 
 @inner(error_model="numpy", fastmath=FAST)

@@ -46,8 +46,8 @@ class OnAMap(Stepper):
         self.kernel, self.block = Kernel(trimmed), np.concatenate([head, A.ravel(), b, [edge]])
         self.v, self.tolerance, self.mean_limit, self.n_periods = 0.0, tolerance, 1.0, 0
         drive, body = SimpleNamespace(steps=2), SimpleNamespace(M=1.0)
-        limit = SimpleNamespace(most=np.full(n, 1e300))  # no friction brings a state back
-        self.scaled = SimpleNamespace(drive=drive, body=body, limit=limit, faces=None, in_plane=None, n_axes=1)
+        limit = SimpleNamespace(most=np.full(n, 1e300), gap_tells=True)  # no friction brings a state back
+        self.scaled = SimpleNamespace(drive=drive, body=body, limit=limit, in_plane=None, n_axes=1)
         self.ticker = Ticker("map")
 
 

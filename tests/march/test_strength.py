@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import SHAPES
+from numpy.testing import assert_allclose
 from tables import strength as table
 
 import mdr
@@ -138,3 +139,49 @@ def test_what_no_step_sees_follows_from_the_velocity_of_the_top():
     coarse = steady(case, 10 * UNIT, resolution_of(case, 64, 128))
     # the law of a single edge, summed over the steps: of first order in the step, 5 % here
     assert coarse.stepper.unseen(coarse.orbit.state) == pytest.approx(1 - fine.cof, rel=0.1)
+
+
+def limit_of(case):
+    _, scaled = at_hand(case, resolution_of(case, 16, 32))
+    return scaled, scaled.limit
+
+
+def test_of_coulomb_friction_the_gap_tells_the_limit():
+    scaled, limit = limit_of(replace(BALL, mu_0=0.3, tau_0=0.0, pull=mdr.SpringPull(k_x=BALL.k_xc, m=1e-3)))
+    assert limit.gap_tells
+    assert limit.order == 2
+    assert np.array_equal(limit.force.area, scaled.normal.area)
+    assert np.array_equal(limit.rate, scaled.drive.z_dot)
+    assert not limit.hides_stick
+    assert limit.unseen(np.ones(32), scaled.drive.z_dot[:-1]) == 0
+    assert limit.beside(np.arange(3)) == {}
+    press, gap = scaled.drive.z[1:], scaled.springs.gap
+    assert np.array_equal(list(limit.borne(press)), np.maximum(press - gap[:, None], 0))
+
+
+@pytest.mark.parametrize(("material", "hides"), [(ELASTIC, True), (KELVIN, False), (ARMS, True)])
+def test_with_a_strength_each_spring_has_a_limit_of_its_own(material, hides):
+    """That of all together is mu_0 F_z + tau_0 pi a²; of each, mu_0 and its force, and the strength on its chord."""
+    case = replace(BALL, mu_0=0.3, material=material, pull=mdr.SpringPull(k_x=BALL.k_xc, m=1e-3))
+    scaled, limit = limit_of(case)
+    assert not limit.gap_tells
+    assert limit.order == 1.5
+    assert limit.force is None
+    assert limit.hides_stick is hides
+    share, force = scaled.springs.w, scaled.units.stiffness_x * scaled.units.length_x
+    of_strength = limit.beside(np.arange(32))["strength"].mean(axis=0) @ share * force
+    assert of_strength <= 1.01 * strong_force(case)  # the edge of what remembers comes back early
+    if material is ELASTIC:  # nodes of 16 springs miss some of the disc at the edge
+        assert of_strength == pytest.approx(strong_force(case), rel=1e-2)
+        assert limit.mean * force == pytest.approx(case.mu_0 * mean_force(scaled) + strong_force(case), rel=1e-2)
+        end = sum(w * of for w, of in zip(share, limit.borne(scaled.drive.z[1:]), strict=True))
+        assert_allclose(end, limit.end, rtol=1e-9)
+
+
+def mean_force(scaled):
+    return scaled.normal.mean * scaled.units.stiffness_z * scaled.units.length_z
+
+
+def strong_force(case):
+    """tau_0 times the mean area of a paraboloid that keeps contact, pi R d."""
+    return case.tau_0 * np.pi * case.indenter.R * case.oscillation.u_z0

@@ -128,7 +128,7 @@ class Row:
             for i in range(self.gap.size):
                 one, two = np.ascontiguousarray(e[:, i : i + 1]), np.ascontiguousarray(s[:, i : i + 1])
                 spring, rates = Springs(self.gap[i : i + 1], np.ones(1)), (last.z_1, last.x_1)
-                of = row(two, one, spring, path, *rates, *self.law, tools, lumped, each, look and look[i])
+                of = row(two, one, spring, None, path, *rates, *self.law, tools, lumped, each, look and look[i])
                 moments = of.moment + part * h * of.area, of.normal_moment + part * h * of.normal_area
                 sums[:, i] += of.area, moments[0], of.stuck, of.normal_area, moments[1]
                 e[:, i], s[:, i] = one[:, 0], two[:, 0]
@@ -153,7 +153,7 @@ class Row:
         tools, lumped = tools_for(self.law, self.h, n), np.full((s.shape[0], 1), np.nan)
         seen, look = (Each(*np.empty((3, n))), self.look_at(n)) if each else (None, None)
         rates = rates or (end.z_1, end.x_1)
-        of = row(s, e, Springs(self.gap, self.w), self.path, *rates, *self.law, tools, lumped, seen, look)
+        of = row(s, e, Springs(self.gap, self.w), None, self.path, *rates, *self.law, tools, lumped, seen, look)
         return e, s, of, lumped, seen
 
     def pressed(self):

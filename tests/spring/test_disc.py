@@ -41,7 +41,7 @@ def answer_and_springs(law, s, e, gap, w, path, h, rates=None):
     """The same, and what each spring does."""
     rates, n = rates or (path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2), gap.size
     tools, each = tools_for(law, h, n, in_plane=True), Each(np.empty(n), np.empty(n, complex), np.empty(n))
-    return row(s, e, Springs(gap, w), path, *rates, *law, tools, None, each, None), each
+    return row(s, e, Springs(gap, w), None, path, *rates, *law, tools, None, each, None), each
 
 
 def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
@@ -172,7 +172,7 @@ def test_along_one_line_it_is_the_row_along_a_line(law, tolerance, sign):
     s_1, e_1, path = s.copy(), e.real.copy(), Path(0.0, 0.05, 0.0, sign * 20.0, 10.0)
     rates = 0.05, sign * 20.0 + 20.0 * H
     lumped = np.empty((s_1.shape[0], 1))
-    known = row(s_1, e_1, Springs(gap, w), path, *rates, *law, tools_for(law, H, gap.size), lumped, None, None)
+    known = row(s_1, e_1, Springs(gap, w), None, path, *rates, *law, tools_for(law, H, gap.size), lumped, None, None)
     assert_allclose(after.imag, 0.0, atol=1e-15)
     assert_allclose(after.real, e_1, atol=tolerance)
     assert_allclose(np.real(of._replace(back=0.0)), known._replace(back=0.0), atol=tolerance)
@@ -242,7 +242,7 @@ def test_springs_that_do_one_thing_all_step_are_as_from_event_to_event(law):
         look = Look(nodes, np.zeros(N_SUMS), np.zeros(4), np.zeros(n), np.zeros(n, complex), np.zeros(n))
         of, each_1 = answer_and_springs(law, s_1, e_1, gap, w, path, H, rates)
         each = Each(np.empty(n), np.empty(n, complex), np.empty(n))
-        known = row(s_2, e_2, Springs(gap, w), path, *rates, *law, tools, None, each, look)
+        known = row(s_2, e_2, Springs(gap, w), None, path, *rates, *law, tools, None, each, look)
         assert len(set(look.mode)) > 1
         assert_allclose(s_1, s_2, rtol=0, atol=1e-14)
         assert_allclose(e_1, e_2, rtol=0, atol=3e-14)

@@ -47,7 +47,7 @@ def test_along_a_line_it_comes_to_the_row_along_a_line(law):
         one, two, tools = s.copy(), e.real.copy(), tools_for(law, 0.5, gap.size)
         lumped = np.empty((s.shape[0], 1))
         path, w = Path(0.0, z_1, 0.0, x_1, 0.0), np.full(gap.size, 1 / gap.size)
-        known = row(one, two, Springs(gap, w), path, z_1, x_1, *law, tools, lumped, None, None)
+        known = row(one, two, Springs(gap, w), None, path, z_1, x_1, *law, tools, lumped, None, None)
         off = []
         for pieces in (1, 8, 64):
             s_2, e_2 = s.copy(), e.copy()

@@ -159,13 +159,15 @@ def test_springs_that_keep_their_modes_are_full_slip_and_one_spring(material):
         T, _, arms = one.law
         lumped = np.zeros((one.s.shape[0], 1))
         row_of = Springs(first.gap, first.w)
-        last = row(first.s.copy(), first.e.copy(), row_of, first.path, 0.0, 0.0, *one.law, tools, lumped, None, None)
+        last = row(
+            first.s.copy(), first.e.copy(), row_of, None, first.path, 0.0, 0.0, *one.law, tools, lumped, None, None
+        )
         ends = end.z_1, end.x_1
         area, moment, force = as_they_are(then.path, last, T, arms, tools, lumped, *ends)
         s_end, of_slip, moment_of_slip, _ = then.pressed()
         normal = one.roots @ (s_end @ then.w) + T * end.z_1 * then.w.sum()
         row_of = Springs(then.gap, then.w)
-        of_row = row(then.s.copy(), then.e.copy(), row_of, then.path, *ends, *one.law, tools, lumped, None, None)
+        of_row = row(then.s.copy(), then.e.copy(), row_of, None, then.path, *ends, *one.law, tools, lumped, None, None)
         known = of_row.area, of_row.moment, of_row.end
         assert keeps.any()
         assert_allclose((of_slip + area, moment_of_slip + moment, normal + force), known, atol=1e-12)
@@ -182,4 +184,4 @@ def test_tools_of_fewer_springs_are_refused():
     end, tools = one.from_then(one.h), tools_for(one.law, one.h, one.gap.size - 1)
     springs, ends, lumped = Springs(one.gap, one.w), (end.z_1, end.x_1), np.empty((1, 1))
     with pytest.raises(ValueError, match="of fewer springs"):
-        row(one.s.copy(), one.e.copy(), springs, one.path, *ends, *one.law, tools, lumped, None, None)
+        row(one.s.copy(), one.e.copy(), springs, None, one.path, *ends, *one.law, tools, lumped, None, None)

@@ -14,7 +14,7 @@ import numpy as np
 from mdr.march.dynamics.body import RATE, Y
 from mdr.march.dynamics.broyden import correct
 from mdr.spring.copies import put
-from mdr.spring.face import face_later
+from mdr.spring.limit import Strength, limit_later
 from mdr.spring.motion import glassy
 from mdr.spring.path import FAST, LENT, OWN, ROUNDING, Path
 from mdr.spring.row import as_they_are, row
@@ -28,15 +28,18 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 #: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
 SHORTEST_PART = 1e-6
 MOST_ITERATIONS = 32  #: of a step: the slowest solution, of springs on stiff dashpots, gains half a digit in each
-PLAIN = 2  #: iterations of a step in the plane, before what slip along one direction does to the other is learned
+PLAIN = 2  #: iterations of a step in the plane, before the coupling of x and y is updated in the Jacobian
 MOST_PLACES = 99  #: in the search for a zero of one unknown
 BALANCED = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
 
 
 class Here(NamedTuple):
-    """The motion of the indenter in a step, without the body, and the force of full slip, where it is known."""
+    """The motion of the indenter in a step, without the body; the limit of friction, and its force in full slip, where
+    it is known.
+    """
 
     path: Path
+    limit: Strength | None  #: limit.py
     z_dot: float  #: its rates at the end, of which those of the parabolas are off by h²/12 of a third derivative
     x_dot: complex
     v: float  #: velocity of the pull
@@ -67,7 +70,7 @@ def later(path, t):
     """A motion, its time counted from t on."""
     z_0 = path.z_0 + t * (path.z_1 + t * path.z_2)
     z_1, x_1 = path.z_1 + 2.0 * path.z_2 * t, path.x_1 + 2.0 * path.x_2 * t
-    return Path(z_0, z_1, path.z_2, x_1, path.x_2, face_later(path.face, t))
+    return Path(z_0, z_1, path.z_2, x_1, path.x_2)
 
 
 @_inline
@@ -90,7 +93,7 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     for it, and whether this was solved; e, s, of_body are updated.
     """
     (T, modes, arms), (e_0, s_0, lumped) = law, room
-    h, path, found = tools.times.h, here.path, False
+    h, path, limit, z_dot, found = tools.times.h, here.path, here.limit, here.z_dot, False
     y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
     ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
     if side is not None:
@@ -103,14 +106,14 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             ahead = enclosed(e, s, room, of_body, body, springs, here, law, tools)
         path, rate = moved(here.path, ahead, aside, side)
         if slip is not None and iteration == 0:
-            area, moment, end = as_they_are(path, last, T, arms, tools, lumped, here.z_dot, here.x_dot + rate)
+            area, moment, end = as_they_are(path, last, T, arms, tools, lumped, z_dot, here.x_dot + rate)
             area, moment, end = here.area + area, here.moment + moment, here.end + end
             stick = last.sticking * h, 0.5 * last.sticking * h * h, last.sticking
         else:
             if not fresh:
                 put(e_0, e)
                 put(s_0, s)
-            of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
+            of = row(s, e, springs, limit, path, z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
             fresh, last = False, Last(of.sticking, of.back)
             area, moment, end = of.area, of.moment, of.end
             if side is None or iteration <= PLAIN:
@@ -140,8 +143,8 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
 @_lent
 def together(ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, past, begins, h):
     """The motion of a body in both directions nearer to where the forces take it. ahead, aside: the motion now; next_:
-    what Newton's method makes of each direction for itself. Broyden's method learns from iteration to iteration what a
-    motion along one direction does to the force along the other.
+    what Newton's method makes of each direction for itself. Broyden's method updates the coupling of x and y in
+    the Jacobian.
 
     past, begins: of `correct`.
     """
@@ -184,7 +187,7 @@ def moved(path, ahead, aside, side):
     b_1, b_2, rate = ahead.b_1, ahead.b_2, ahead.rate
     if side is not None:
         b_1, b_2, rate = complex(b_1, aside.b_1), complex(b_2, aside.b_2), complex(rate, aside.rate)
-    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + b_1, path.x_2 + b_2, path.face), rate
+    return Path(path.z_0, path.z_1, path.z_2, path.x_1 + b_1, path.x_2 + b_2), rate
 
 
 @_inline
@@ -241,9 +244,9 @@ def follow(e, s, room, of_body, last, body, springs, here, slip, flight, flown, 
         begin, first = flown, 0
     rest = later(here.path, begin)
     for part in range(first, 2):
-        one, now = Here(rest, *here[1:]), tools
+        one, now = Here(rest, limit_later(here.limit, begin), *here[2:]), tools
         if part == 0:
-            one = Here(here.path, rest.z_1, rest.x_1, here.v, 0.0, 0.0, 0.0)
+            one = Here(here.path, here.limit, rest.z_1, rest.x_1, here.v, 0.0, 0.0, 0.0)
             now = tools_of(begin, law.modes, law.arms, tools)
         elif first == 0:
             now = tools_of(h - begin, law.modes, law.arms, tools)
@@ -289,7 +292,7 @@ def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
     put(s_0, s)
     one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
-    of = row(s, e, springs, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
+    of = row(s, e, springs, here.limit, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
     left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 

@@ -21,12 +21,12 @@ from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import Body, body_of
 from mdr.march.dynamics.full_slip import FullSlip
 from mdr.march.dynamics.kernel import Is, Kernel, block_of
-from mdr.march.dynamics.limit import Limit, faces_of, unseen
+from mdr.march.dynamics.limit import Limit, strengths_of
 from mdr.materials.operator import SLOWEST, Rheology
 from mdr.normal.springs import SpringArray
 from mdr.spring.contact import Springs
-from mdr.spring.face import Faces
 from mdr.spring.law import Law, law_of
+from mdr.spring.limit import Strengths
 from mdr.spring.path import ROUNDING
 from mdr.spring.settle import NormalPeriod, settled
 from mdr.tools.arrays import Array
@@ -97,12 +97,12 @@ class Drive:
         axes = [self.along] if self.across is None else [self.along, self.across]
         return max(v, *(float(np.abs(axis.x_dot).max()) for axis in axes))
 
-    def with_pull(self, v: float, faces: Faces | None = None) -> loop.Motion:
+    def with_pull(self, v: float) -> loop.Motion:
         """Motion of the indenter over a period, in the plane that of a pull at the velocity v and of a shake."""
         x, x_dot = self.along.x, self.along.x_dot
         if self.across is not None:
             x, x_dot = x + 1j * self.across.x, x_dot + 1j * self.across.x_dot
-        return loop.Motion(self.z, self.z_dot, v, x, x_dot, faces)
+        return loop.Motion(self.z, self.z_dot, v, x, x_dot)
 
     @classmethod
     def of(cls, case: SlidingContact, length_x: float, steps: int) -> Drive:
@@ -149,18 +149,13 @@ class Slow:
         return cls(rheology.slow, rheology.slow / (1 + rheology.slow) * (s[0] - s[1]))
 
 
-def _share_of_disc(springs: SpringArray, a: float) -> float:
-    """Sum of 2 sqrt(a² - x²) over the springs, over its integral pi a²: a strength acts on the whole disc."""
-    return float(springs.width @ np.sqrt(np.maximum(a**2 - springs.x**2, 0.0))) * 2 / (np.pi * a**2)
-
-
 @dataclass(frozen=True, eq=False)
 class ScaledContact:
     """The parts of a contact that the march needs."""
 
     units: Units
     springs: Springs
-    faces: Faces | None  #: the shear strength of the face; None where it has none
+    strengths: Strengths | None  #: the limit of friction, as steps know it
     slow: Slow  #: what slow arms have made of stiffness and gaps
     n_alike: int  #: how many springs that stand alike the only one stands for
     drive: Drive
@@ -191,13 +186,8 @@ class ScaledContact:
         slow = Slow.of(rheology, row, drive)
         row, rheology, width = Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
         units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
-        law, coulomb = law_of(rheology.T, rheology.rho, rheology.theta), case.mu_0 * case.material.mindlin_ratio * unit
-        radius = np.inf
-        if case.tau_0:
-            share = _share_of_disc(springs, float(case.indenter.contact_radius(case.u_z_max)))
-            radius = share * length_x * springs.G_star * (1 + slow.rho) / (2 * case.tau_0)
-        faces = faces_of(case, radius, coulomb / length_x, steps)
-        row = row._replace(x2=(springs.x / radius) ** 2 if faces else None)
+        law = law_of(rheology.T, rheology.rho, rheology.theta)
+        strengths = strengths_of(case, springs, 1 + slow.rho, length_x, steps)
         body, across = (
             body_of(M, C, K, law, drive.h, _ringing(M, K, rheology))
             for M, C, K in (
@@ -205,7 +195,7 @@ class ScaledContact:
                 for across, moves in ((False, True), (True, case.moves_across))
             )
         )
-        return cls(units, row, faces, slow, n_alike, drive, rheology, law, body, across)
+        return cls(units, row, strengths, slow, n_alike, drive, rheology, law, body, across)
 
     @cached_property
     def normal(self) -> NormalPeriod:
@@ -215,7 +205,7 @@ class ScaledContact:
     @cached_property
     def limit(self) -> Limit:
         """The most that friction bears."""
-        return Limit.of(self.normal, self.springs, self.drive.z, self.drive.z_dot, self.law, self.faces)
+        return Limit.of(self.normal, self.springs, self.drive.z, self.drive.z_dot, self.rheology, self.strengths)
 
     @cached_property
     def greatest_force(self) -> Array:
@@ -232,12 +222,6 @@ class ScaledContact:
         """Displacement of a pull over a period that is not told from rounding."""
         return self.drive.steps * LOST * (1.0 + float(np.abs(self.springs.gap).max()))
 
-    def unseen(self, top: Array) -> float:
-        """Share of full slip lost at the edge of contact, in steps too long to see it; top (n_t,): its velocity."""
-        modulus = np.inf if self.law.T else 1.0 + sum(self.rheology.rho)  # a dashpot lets no limit grow like a root
-        rate = 0.0 if self.faces is None else self.faces.coulomb * self.drive.z_dot[:-1]
-        return unseen(self.faces, np.asarray(rate), top, modulus, self.limit)
-
     @cached_property
     def at_stake(self) -> float:
         """Share of full slip that the oscillation can take: where there is no shake, what the least force lacks."""
@@ -249,27 +233,19 @@ class ScaledContact:
         if self.body.rigid or self.n_axes == 2:
             return None, None
         limit, flight = self.limit, self.normal.flight if self.body.light else None
-        return None if self.faces else loop.FullSlipForce(limit.area, limit.moment, limit.end), flight
+        return limit.force, flight
 
     @cached_property
     def full_slip(self) -> FullSlip:
         """The body in full slip."""
-        return FullSlip(self.body, self.limit, self._limit_rate - self.drive.along.x_dot, self.drive.pace(0.0))
-
-    @property
-    def _limit_rate(self) -> Array:
-        """Rate of the extension in full slip, (n_t + 1,), of springs that press; on a face of the one in the middle."""
-        if self.faces is None:
-            return self.drive.z_dot
-        steps, c = self.drive.steps, np.sqrt(self.faces.a2[:, 0]) * (self.limit.area > 0)
-        r = np.fft.irfft(np.fft.rfft(c) / self.rheology.response(np.arange(steps // 2 + 1)), steps)
-        return self.faces.coulomb * self.drive.z_dot + np.diff(np.append(r, r[:2])) / self.drive.h
+        return FullSlip(self.body, self.limit, self.limit.rate - self.drive.along.x_dot, self.drive.pace(0.0))
 
     @cached_property
     def in_numbers(self) -> tuple[Kernel, Array]:
         """The kernel that marches it, and its block: all that this has to know but the velocity."""
         bodies = self.body, self.body_across
-        return block_of(self.springs, self.drive.with_pull(0.0, self.faces), self.law, bodies, *self.full_slip_force)
+        motion = self.drive.with_pull(0.0)
+        return block_of(self.springs, motion, self.law, self.strengths, bodies, *self.full_slip_force)
 
 
 def _settled(row: Springs, drive: Drive, law: Law) -> NormalPeriod:

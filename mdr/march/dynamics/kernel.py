@@ -17,8 +17,8 @@ import numpy as np
 from mdr.march.dynamics.body import Body, numbers_of
 from mdr.march.dynamics.loop import FullSlipForce, Motion, Trace, march
 from mdr.spring.contact import Springs
-from mdr.spring.face import Faces
 from mdr.spring.law import Arms, Law, Modes
+from mdr.spring.limit import Strengths
 from mdr.spring.path import FAST
 from mdr.spring.times import new_tools
 from mdr.tools.arrays import Array
@@ -31,9 +31,9 @@ _ROW, _ROWS = types.float64[::1], types.float64[:, ::1]
 #: block, velocity of the pull, state and compressions, updated, number of steps, flat trace; whether all was solved
 SIGNATURE = types.boolean(_ROW, types.float64, _ROW, _ROWS, types.int64, _ROW)
 
-#: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of Coulomb's
-#: share beside a shear strength; of the body along the pull
-N, N_T, N_ARMS, N_MODES, N_AXES, OF_T, COULOMB, ALONG = range(8)
+#: places in a block, of the numbers of springs, steps, arms, modes, directions; of T of the Kelvin branch; of the body
+#: along the pull
+N, N_T, N_ARMS, N_MODES, N_AXES, OF_T, ALONG = range(7)
 OF_BODY = 19  #: numbers of a body
 ACROSS, HEAD = ALONG + OF_BODY, ALONG + 2 * OF_BODY  #: places of the body across, and of the arrays
 OF_STEP = 10  #: numbers that a flat trace has of a step
@@ -47,7 +47,7 @@ class Kind(NamedTuple):
     modes: Is  #: of its material
     arms: Is
     slip: Is  #: a force of full slip, as it has a body on a line
-    face: Is  #: a shear strength of its face
+    limit: Is  #: a limit of friction other than Coulomb's
     flight: Is  #: times of flight, as the body is light
     plane: Is  #: vectors for extensions
 
@@ -96,6 +96,7 @@ def block_of(
     springs: Springs,
     motion: Motion,
     law: Law,
+    limits: Strengths | None,
     bodies: tuple[Body, Body],
     slip: FullSlipForce | None,
     flight: Array | None,
@@ -107,14 +108,10 @@ def block_of(
     sizes = springs.gap.size, motion.z.size - 1, of_arms, of_modes, 1 + plane
     arrays = [springs.gap, springs.w, motion.z, motion.z_dot, motion.x.real, motion.x_dot.real]
     arrays += [motion.x.imag, motion.x_dot.imag] if plane else []
-    arrays += [one.ravel() for part in (modes, arms, slip) if part is not None for one in part]
+    arrays += [one.ravel() for part in (modes, arms, slip, limits) if part is not None for one in part]
     arrays += [] if flight is None else [flight]
-    faces = motion.faces
-    arrays += [] if faces is None or springs.x2 is None else [springs.x2, faces.a2.ravel()]
-    kind = Kind(*(None if one is None else True for one in (modes, arms, slip, faces, flight, plane or None)))
-    return kernel_of(kind), np.concatenate(
-        [sizes, [T, 1.0 if faces is None else faces.coulomb], *map(numbers_of, bodies), *arrays]
-    )
+    kind = Kind(*(None if one is None else True for one in (modes, arms, slip, limits, flight, plane or None)))
+    return kernel_of(kind), np.concatenate([sizes, [T], *map(numbers_of, bodies), *arrays])
 
 
 def new_trace(block: Array, n_periods: int) -> Array:
@@ -123,7 +120,7 @@ def new_trace(block: Array, n_periods: int) -> Array:
 
 
 def if_there(value, whether):
-    """The value, or None where a contact lacks it."""
+    """The value; None if contacts of this kind have no such part."""
     return None if whether is None else value
 
 
@@ -195,7 +192,7 @@ def __getattr__(name: str) -> Any:
 def kernel_of(kind: Kind) -> Kernel:
     """The kernel of a kind."""
     tell_if_missing()
-    has_modes, has_arms, has_slip, has_face, has_flight, in_plane = kind
+    has_modes, has_arms, has_slip, has_limit, has_flight, in_plane = kind
 
     def kernel(block, v, x, s, n_steps, trace):
         n_t, J, K = int(block[N_T]), int(block[N_ARMS]), int(block[N_MODES])
@@ -218,22 +215,24 @@ def kernel_of(kind: Kind) -> Kernel:
         area, at = taken(block, at, n_slip)
         moment, at = taken(block, at, n_slip)
         end, at = taken(block, at, n_slip)
+        coulomb, at = taken(block, at, 1 if has_limit is not None else 0)
+        x2, at = taken(block, at, gap.size if has_limit is not None else 0)
+        a2, at = taken(block, at, 3 * n_t if has_limit is not None else 0)
+        strengths = Strengths(coulomb, x2, a2.reshape((a2.size // 3, 3)))
         flight, at = taken(block, at, n_t if has_flight is not None else 0)
-        x2, at = taken(block, at, gap.size if has_face is not None else 0)
-        a2, at = taken(block, at, 3 * n_t if has_face is not None else 0)
-        faces = Faces(block[COULOMB], a2.reshape((a2.size // 3, 3)))
         modes = if_there(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
         law = Law(block[OF_T], modes, if_there(Arms(rho, rate), has_arms))
         shake, shake_dot = vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane)
-        motion = Motion(z, z_dot, v, shake, shake_dot, if_there(faces, has_face))
+        motion = Motion(z, z_dot, v, shake, shake_dot)
         state = as_numbers(x, in_plane)
         e = state[: s.size].reshape(s.shape)
         body, side = body_at(block, ALONG), if_there(body_at(block, ACROSS), in_plane)
         tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0], gap.size)
-        springs = Springs(gap, w, if_there(x2, has_face))
+        springs, limits = Springs(gap, w), if_there(strengths, has_limit)
         slip, in_flight = if_there(FullSlipForce(area, moment, end), has_slip), if_there(flight, has_flight)
         traced = trace_of(trace, n_steps, in_plane)
-        return march(e, s, state[s.size :], body, side, springs, slip, in_flight, motion, law, tools, n_steps, traced)
+        of_body = state[s.size :]
+        return march(e, s, of_body, body, side, springs, limits, slip, in_flight, motion, law, tools, n_steps, traced)
 
     # the name of its files in the cache, in which all kernels would have one
     kernel.__qualname__ = "kernel_" + "".join("0" if one is None else "1" for one in kind)

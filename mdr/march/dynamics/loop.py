@@ -20,7 +20,7 @@ from mdr.march.dynamics.broyden import ROOM
 from mdr.spring.contact import Look
 from mdr.spring.copies import copy
 from mdr.spring.energies import SHEAR_WORK, nodes_of
-from mdr.spring.face import Faces, face_in
+from mdr.spring.limit import limit_in, limit_later
 from mdr.spring.path import FAST, LENT, OWN, Path, along
 from mdr.spring.row import row
 from mdr.spring.times import new_tools, tools_of
@@ -42,7 +42,6 @@ class Motion(NamedTuple):
     v: float  #: steady velocity of the pull
     x: Array  #: (n_t + 1,) displacement by a shake, in the plane
     x_dot: Array  #: (n_t + 1,) its rate
-    faces: Faces | None = None  #: what the edge of contact does; None where friction is Coulomb's alone
 
 
 class FullSlipForce(NamedTuple):
@@ -84,16 +83,16 @@ def path_of(motion, k, h):
     z, zd, x, xd = motion.z, motion.z_dot, motion.x, motion.x_dot
     z_2, x_2 = (zd[k + 1] - zd[k]) / (2.0 * h), (xd[k + 1] - xd[k]) / (2.0 * h)
     z_1, x_1 = (z[k + 1] - z[k]) / h - z_2 * h, motion.v + (x[k + 1] - x[k]) / h - x_2 * h
-    return Path(z[k], z_1, z_2, x_1, x_2, face_in(motion.faces, k))
+    return Path(z[k], z_1, z_2, x_1, x_2)
 
 
 @_inner
-def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, n_steps, trace):
+def march(e, s, of_body, body, side, springs, limits, slip, flight, motion, law, tools, n_steps, trace):
     """March n_steps from the begin of a period; e, s (1 + J, n) and of_body (N_BODY,) are updated in place.
 
-    body, side: Body along the pull and across it; along a line side is None. slip: the FullSlipForce of a body along a
-    line, else None; flight (n_t,): of a light one there, time to the first touch in a step that begins without contact,
-    else zero. What is None is compiled away. trace: filled.
+    body, side: Body along the pull and across it; along a line side is None. limits: of friction (limit.py). slip: the
+    FullSlipForce of a body along a line, else None; flight (n_t,): of a light one there, time to the first touch in a
+    step that begins without contact, else zero. What is None is compiled away. trace: filled.
     Returns whether every step was solved for.
     """
     h, n_t, solved, last = tools.times.h, motion.z.size - 1, True, Last(0.0, 0.0)
@@ -106,9 +105,10 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
         if k == 0:  # as if in full slip, so that no state depends on how many periods are marched at once
             last = Last(0.0, 0.0)
             lumped[:] = 0.0
-        here = Here(path_of(motion, k, h), motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1], motion.v, 0.0, 0.0, 0.0)
+        rates = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1]
+        here = Here(path_of(motion, k, h), limit_in(limits, k), *rates, motion.v, 0.0, 0.0, 0.0)
         if slip is not None:
-            here = Here(*here[:4], slip.area[k], slip.moment[k], slip.end[k])
+            here = Here(*here[:5], slip.area[k], slip.moment[k], slip.end[k])
         if flight is not None:
             area, moment, last, found = follow(
                 e, s, room, of_body, last, body, springs, here, slip, flight, flight[k], law, tools, j, trace
@@ -124,34 +124,35 @@ def march(e, s, of_body, body, side, springs, slip, flight, motion, law, tools, 
 
 
 @_jit
-def full_slip(e, s, springs, z, z_dot, law, faces, sums):
+def full_slip(e, s, springs, limits, z, z_dot, law, sums):
     """A period of springs that a pull drags which is faster than any of them: e, s (1 + J, n) are updated, sums
     (3, n_t) filled with area, moment and end of the force of each step.
     """
     h, (T, modes, arms) = 2.0 * np.pi / (z.size - 1), law
-    # nobody reads the lumped state here: with it, the row is the one that the march has compiled
+    # lumped is unused here; it is passed to reuse the compiled variant
     tools, lumped = new_tools(h, modes, arms, 0.0, springs.gap.size), np.zeros((s.shape[0], 1))
     for k in range(z.size - 1):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)
-        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, FASTER, 0.0, face_in(faces, k))
-        of = row(s, e, springs, path, z_dot[k + 1], FASTER, T, modes, arms, tools, lumped, None, None)
+        path = Path(z[k], (z[k + 1] - z[k]) / h - z_2 * h, z_2, FASTER, 0.0)
+        now = limit_in(limits, k)
+        of = row(s, e, springs, now, path, z_dot[k + 1], FASTER, T, modes, arms, tools, lumped, None, None)
         sums[0, k], sums[1, k], sums[2, k] = of.area, of.moment, of.end
 
 
 @_jit
-def look(e, s, springs, motion, law, trace, seen):
+def look(e, s, springs, limits, motion, law, trace, seen):
     """A close look at a period that was marched from e, s (1 + J, n), which are updated, and left this trace."""
     T, modes, arms = law
     h, n, kept = 2.0 * np.pi / (motion.z.size - 1), springs.gap.size, seen.mode.shape[0]
     tools, nodes_of_step = new_tools(h, modes, arms, 0.0 * e[0, 0], n), nodes_of(h, modes, arms)
     mode, f_z, f, F = np.empty(n), np.empty(n), np.empty_like(e[0]), np.empty(4)
     for k in range(motion.z.size - 1):
-        path = path_of(motion, k, h)
+        path, limit = path_of(motion, k, h), limit_in(limits, k)
         for part in range(2):
             t, x_1, x_2 = trace.parts[k, part, 0].real, trace.parts[k, part, 1], trace.parts[k, part, 2]
             if t == 0.0:
                 continue
-            now, nodes, here = tools, nodes_of_step, Path(path.z_0, path.z_1, path.z_2, x_1, x_2, path.face)
+            now, nodes, here = tools, nodes_of_step, Path(path.z_0, path.z_1, path.z_2, x_1, x_2)
             if t < h:
                 now, nodes = tools_of(t, modes, arms, tools), nodes_of(t, modes, arms)
             path = later(here, t)
@@ -159,7 +160,8 @@ def look(e, s, springs, motion, law, trace, seen):
             if part == 1:
                 zd, xd = motion.z_dot[k + 1], motion.v + motion.x_dot[k + 1] + trace.rate[k]
             into = Look(nodes, seen.sums, F, mode, f, f_z)
-            of = row(s, e, springs, here, zd, xd, T, modes, arms, now, None, None, into)
+            of = row(s, e, springs, limit, here, zd, xd, T, modes, arms, now, None, None, into)
+            limit = limit_later(limit, t)
             seen.sums[SHEAR_WORK] += along(x_1, of.area) + 2.0 * along(x_2, of.moment)
         copy(F, seen.F[k])
         if kept > 0:

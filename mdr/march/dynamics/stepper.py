@@ -77,7 +77,7 @@ class Stepper:
     @cached_property
     def motion(self) -> loop.Motion:
         """Motion of the indenter over a period."""
-        return self.scaled.drive.with_pull(self.v, self.scaled.faces)
+        return self.scaled.drive.with_pull(self.v)
 
     @cached_property
     def room(self) -> tuple[Array, loop.Trace]:
@@ -173,7 +173,7 @@ class Stepper:
         """Least slip velocity, along the pull, in a period of this COF over mu_0, of springs that slip all the time;
         zero if some do not. A step in which contact begins counts as a whole, if it is not cut there.
         """
-        if self.scaled.faces or not abs(1 - cof) <= EXACT:
+        if not (self.scaled.limit.gap_tells and abs(1 - cof) <= EXACT):
             return 0.0
         (z, z_dot, *_), h = self.motion, self.scaled.drive.h
         z_2 = np.diff(z_dot) / (2 * h)
@@ -183,11 +183,11 @@ class Stepper:
         return float(np.minimum(first, last).min(where=trace.area.real > 0, initial=np.inf))
 
     def unseen(self, state: MarchState) -> float:
-        """Share of full slip lost at the edge of contact in steps too long to see it, in the period from a state on."""
-        if self.scaled.faces is None:
+        """Limit.unseen of the period from a state on."""
+        if not self.scaled.limit.hides_stick:
             return 0.0
         length, x_1, x_2 = self._marched(state.copy(), 1).parts[:, 1].T
-        return self.scaled.unseen(np.abs(x_1 + length * x_2))
+        return self.scaled.limit.unseen(np.abs(x_1 + length * x_2), self.scaled.drive.z_dot[:-1])
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
         """The state a period later, with a close look; the march is the same with and without `keep`."""
@@ -201,7 +201,7 @@ class Stepper:
         trace, passed, start = self._marched(state, 1), before.copy(), before.body
         if scaled.drive.is_shaken:
             sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
-        loop.look(passed.e, passed.s, scaled.springs, self.motion, scaled.law, trace, seen)
+        loop.look(passed.e, passed.s, scaled.springs, scaled.strengths, self.motion, scaled.law, trace, seen)
         if scaled.drive.across is None:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:
@@ -211,13 +211,13 @@ class Stepper:
         return state, PeriodRecord(seen, y, rate, stored, self.periods_of(trace), self.solved)
 
     def forces_of(self, state: MarchState, i: int) -> tuple[Array, Array]:
-        """Force and normal force of a spring over its stiffness, at the end of each step from a state on."""
+        """Force and normal force of a spring over its stiffness at the end of each step, under Coulomb's limit."""
         scaled, n_t = self.scaled, self.scaled.drive.steps
         one, trace = slice(i, i + 1), self._marched(state.copy(), 1)
         seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_t, 4)), *np.zeros((5, n_t, 1)))
-        springs = Springs(scaled.springs.gap[one], scaled.springs.w[one])  # of Coulomb's friction
+        springs = Springs(scaled.springs.gap[one], scaled.springs.w[one])
         e, s = (np.ascontiguousarray(of[:, one]) for of in (state.e, state.s))
-        loop.look(e, s, springs, self.motion, scaled.law, trace, seen)
+        loop.look(e, s, springs, None, self.motion, scaled.law, trace, seen)
         return seen.f[:, 0], seen.f_z[:, 0]
 
     def _work_of(self, axis: AxisMotion, area: Array, moment: Array) -> float:

@@ -109,7 +109,7 @@ class MarchEnd:
     @property
     def hidden_error(self) -> float:
         """Error over mu_0 that no companion shows: of the load, or of the depth that was solved from it, of slow arms
-        that are taken for springs, and, on a face, of stick at the edge of contact that no run sees.
+        that are taken for springs, and of stick at the edge of contact that no run sees (Limit.unseen).
         """
         of_depth = max(self.case.cycle.missing, self.load_error)
         return of_depth + self.stepper.unseen(self.orbit.state) + (0.0 if self.slips_fully else self.scaled.slow.error)
@@ -174,8 +174,8 @@ def steady(
 
 
 def alike_to(end: MarchEnd) -> float:
-    """Gap [amplitudes] beyond which springs that keep contact slip back, as a periodic state shows. Infinite: none
-    does, or the contact is of a kind that this is not worked out for; minus infinity: even the deepest spring does.
+    """Gap [amplitudes] beyond which springs that keep contact slip back, as a periodic state shows. inf: no spring
+    slips back, or not implemented for this case. -inf: all springs slip back.
 
     Springs slip back under a body that swings back. One that does not slip back has the force f = L[s] - D, where
     D >= 0 is what it lacks to slip forward. D is the same for all of these, and their L[s] differ by a constant. So
@@ -183,7 +183,7 @@ def alike_to(end: MarchEnd) -> float:
     """
     scaled, stepper = end.scaled, end.stepper
     as_one = scaled.body.rigid or scaled.springs.gap.size == 1
-    if as_one or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or scaled.faces:
+    if as_one or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or not scaled.limit.gap_tells:
         return np.inf
     deepest = int(np.argmin(scaled.springs.gap))
     gap = float(scaled.springs.gap[deepest])

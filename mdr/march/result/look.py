@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from mdr.march.dynamics.limit import borne
 from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
 from mdr.march.periodic.steady import MarchEnd, out_of_range
 from mdr.march.periodic.theorems import outside
@@ -56,23 +55,20 @@ def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:
     start.
 
     At v_0 = 0, with x the displacement of its top, -c the place of its foot and R what friction bears, the force
-    L[x] + c must stay within R. More than one c does so if 0 < min(R - L[x]) + min(R + L[x]). By Coulomb's law R is
-    L[z] - gap, and the deepest spring tells; on a face with a strength any spring may.
+    L[x] + c must stay within R. More than one c does so if 0 < min(R - L[x]) + min(R + L[x]).
     """
     scaled = end.scaled
     if end.v_0 != 0:
         return False
-    top, z, springs = account.y[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:], scaled.springs
+    top, z = account.y[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:]
     forces = np.fft.rfft([z, top.real, top.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
     press, along, across = np.fft.irfft(forces, scaled.drive.steps)
     # of a foot so at rest that the force goes about zero
     away = np.hypot(*(one - 0.5 * (one.min() + one.max()) for one in (along, across)))
 
-    def holds(R: Array, less: float = 0.0) -> bool:
+    def holds(R: Array) -> bool:
         if scaled.n_axes == 2:
-            return float((R - away).min()) > less
-        return float((R - along).min() + (R + along).min()) > 2 * less
+            return float((R - away).min()) > 0
+        return float((R - along).min() + (R + along).min()) > 0
 
-    if scaled.faces is None or springs.x2 is None:
-        return holds(press, float(springs.gap.min()))
-    return any(holds(borne(scaled.faces, *one, press)) for one in zip(springs.gap, springs.x2, strict=True))
+    return any(map(holds, scaled.limit.borne(press)))

@@ -6,14 +6,14 @@ springs, though they do not fall evenly, as events come at any place in a step. 
 beside a run: (1) half of the steps; (2) half of the steps and springs; (3) three quarters of both; (4) three eighths of
 both. Each has one step more in each oscillation, so that no two divide it at the same instants: what an event just
 behind a common instant does would be missed by all alike. Where the run shows that springs begin to slip back at a
-place of the row, (2) to (4) have a cut there: rows of which no spring stands beyond it would agree. Run minus (1)
-tells the error of the steps, (1) minus (2) that of the springs, which counts one and a half times; at second order
-each is three times the true error. The bound is their sum; on a face with a strength both count one and a half times
-more. Two runs may agree by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second order,
-nor less than 3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in the plane, less
-than a tenth of what is asked for. Added is what no companion shows. Where all this is more than is asked for, steps or
-springs are doubled, as these companions tell, until a run would be too dear. Once, in the place of more springs, the
-row is cut where the run shows that they begin to slip back.
+place of the row, (2) to (4) have a cut there: rows of which no spring stands beyond it would agree. Run minus (1) tells
+the error of the steps, (1) minus (2) that of the springs, which counts one and a half times; at second order each is
+three times the true error. The bound is their sum; where the limit is met to a lower order both count one and a half
+times more. Two runs may agree by chance, so that it is never less than 3 |run - (3)|, 2.3 times the error at second
+order, nor less than 3/8 |(2) - (4)|, as errors fall at most eightfold where both numbers are doubled; nor, in the
+plane, less than a tenth of what is asked for. Added is what no companion shows. Where all this is more than is asked
+for, steps or springs are doubled, as these companions tell, until a run would be too dear. Once, in the place of more
+springs, the row is cut where the run shows that they begin to slip back.
 
 Where a run has found its periodic state, the next one begins its search there.
 """
@@ -300,16 +300,16 @@ def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
         by_chance += [Companion(_apart(half, runs.beside(half, beside.less)), BY_CHANCE / MOST_GAINED)]
     if runs.case.moves_across:
         by_chance += [Companion(0.0, least=AGREED * main.resolution.accuracy)]
-    of_steps = UNEVENLY if main.scaled.faces else 1.0  # a limit that bends like a root is met with the order 3/2
+    of_steps = 1.0 if main.scaled.limit.order == 2 else UNEVENLY
     by_springs = Companion(0.0 if as_one else _apart(steps, half), of_steps * UNEVENLY)
     return Missed(Companion(_apart(main, steps), of_steps), by_springs, tuple(by_chance))
 
 
 def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
-    """Error of the steps, over mu_0, that companions have as well: of the oscillation of a mass on the contact, which
-    too few steps damp, or of how dashpots throw a body without mass (`_jolts`). It is found beside a run whose steps
-    resolve the oscillation, or that has four times the steps. Zero where the run has these itself, and, with a mass,
-    where they would be more than MOST_STEPS.
+    """Step error that all companion runs share, over mu_0, so that their differences do not show it: of the oscillation
+    of a mass on the contact, which too few steps damp, or of how dashpots throw a body without mass (`_jolts`). It is
+    found beside a run whose steps resolve the oscillation, or that has four times the steps. Zero where the run has
+    these itself, and, with a mass, where they would be more than MOST_STEPS.
     """
     steps = int(np.ceil(1.1 * RESOLVED * runs.fast)) if main.scaled.body.light and main.scaled.body.M else 0
     if _jolts(runs.case):
@@ -322,7 +322,7 @@ def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
 
 
 def _clear_of_stick(runs: _Runs, main: MarchEnd) -> MarchEnd | None:
-    """A run that slips, where no finer step would stick either: F_x is mu_0 F_z without error.
+    """The run, if it slips fully and finer steps would too. Its COF is then exact.
 
     The least slip velocity (MarchEnd.least_slip), of it and of its companion of half the size, must be more than a
     tenth, and than ten times their difference. And this difference must be small beside one less the slip velocity, so

@@ -305,10 +305,8 @@ def _recorded(end: MarchEnd, records: tuple[PeriodRecord, ...]) -> dict[str, Any
             "e_y": e.imag * scaled.units.length_x,
             "f_y": f.imag * share * scaled.units.stiffness_x * scaled.units.length_x,
         }
-    if scaled.faces is not None and scaled.springs.x2 is not None:
-        a2 = np.roll(scaled.faces.a2[:, 0], -1)[(phase - 1) % scaled.drive.steps]
-        strength = np.sqrt(np.maximum(a2[:, None] - scaled.springs.x2, 0.0)) * (mode != State.FREE)
-        across["strength"] = strength * share * scaled.units.stiffness_x * scaled.units.length_x
+    for name, one in scaled.limit.beside((phase - 1) % scaled.drive.steps).items():
+        across[name] = one * (mode != State.FREE) * share * scaled.units.stiffness_x * scaled.units.length_x
     return across | {
         "t": t,
         "u_x": end.v_0 * t + (y.real + scaled.drive.along.x[phase]) * scaled.units.length_x,
