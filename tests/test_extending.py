@@ -1,4 +1,6 @@
-"""A shape, that of the guide, a material and a depth motion from outside the package, each through the whole chain."""
+"""A shape and a law of friction, those of the guide, a material and a depth motion from outside the package, each
+through the whole chain.
+"""
 
 import ast
 import re
@@ -12,7 +14,7 @@ from numpy.testing import assert_allclose
 
 import mdr
 from mdr import plots
-from mdr.case import motion
+from mdr.case import friction, motion
 from mdr.case.depth_cycle import Cycle
 from mdr.files.own_records import _OWN
 
@@ -22,8 +24,10 @@ KNOBS = {"n_springs": 32, "steps_per_period": 64}
 GUIDE = (ROOT / "EXTENDING.md").read_text(encoding="utf-8")
 CODE = re.findall(r"```python\n(.*?)```", GUIDE, re.DOTALL)
 PAGE = {"__name__": "page"}
-exec(CODE[0], PAGE)
+for code in CODE:
+    exec(code, PAGE)
 Bump = PAGE["Bump"]  # near its tip a paraboloid of R = b²/2h
+StickySpot = PAGE["StickySpot"]  # larger than the contact, it is a face with a shear strength
 
 
 @dataclass(frozen=True)
@@ -80,6 +84,7 @@ OWN = {
         {"material": mdr.StandardLinearSolid(3e6, 1.5e6, 1e-3, 0.5)},
         1e-9,
     ),
+    "law": ({"friction": StickySpot(0.5, 1e4, b=1.0)}, {"friction": mdr.ShearStrength(0.5, 1e4)}, 0.0),
     "motion": (
         {"oscillation": OwnMotion(20e-6, 4e-6, OMEGA, 0.3)},
         {"oscillation": mdr.PeriodicMotion(OMEGA, 20e-6, (4e-6, 1.2e-6))},
@@ -100,10 +105,9 @@ def part(request, monkeypatch):
 
 def test_it_slides_and_has_its_critical_velocity(part):
     case, like, apart = part
-    v_c = mdr.critical_velocity(like)
-    assert_allclose(mdr.critical_velocity(case), v_c, rtol=apart)
+    assert_allclose(mdr.critical_velocity(case), mdr.critical_velocity(like), rtol=apart)
     assert_allclose(mdr.full_slip_critical_velocity(case), mdr.full_slip_critical_velocity(like), rtol=apart)
-    ours, theirs = (mdr.slide(one, 0.3 * v_c, **KNOBS) for one in (case, like))
+    ours, theirs = (mdr.slide(one, 0.3 * like.unit_velocity, **KNOBS) for one in (case, like))
     assert ours.settled
     assert_allclose(ours.cof, theirs.cof, rtol=apart)
 
@@ -127,7 +131,7 @@ def test_a_study_varies_it(part, tmp_path):
 
 def test_figures_draw_it(part, tmp_path):
     case, _, _ = part
-    curve = mdr.cof_curve(case, mdr.critical_velocity(case) * np.array([0.0, 0.5, 1.1]), **KNOBS)
+    curve = mdr.cof_curve(case, case.unit_velocity * np.array([0.0, 0.5, 1.1]), **KNOBS)
     curve.plot().figure.savefig(tmp_path / "curve.png")
     plots.plot_profile(case.indenter, 20e-6).savefig(tmp_path / "shape.png")
     mdr.slide(case, 1e-4, n_periods=2, record=1, **KNOBS).plot().savefig(tmp_path / "run.png")
@@ -144,10 +148,53 @@ def test_what_cannot_be_registered_is_refused():
         mdr.register(dataclass(frozen=True)(Cone))
 
 
+# --- the law, where a case goes ---
+
+RIGID = replace(KNOWN, friction=StickySpot(0.5, 1e4, b=1.0))
+BODY = replace(RIGID, pull=mdr.SpringPull(k_x=2e4, m=0.05, c_x=4.0))
+#: what is asked of a case, and of the same case with the law of the library
+ASKED = {
+    "static": (RIGID, mdr.static_cof),
+    "curve": (RIGID, lambda case: mdr.cof_curve(case, [1e-4, 3e-4], **KNOBS).cof),
+    "measured": (
+        replace(BODY, material=mdr.KelvinVoigt(3e6, 0.5, 2e-3)),
+        lambda case: mdr.measure_critical_velocity(case).v_c,
+    ),
+    "verdict": (BODY, lambda case: mdr.verdict(case).why),
+    "along": (
+        replace(BODY, shake=mdr.InPlaneOscillation(OMEGA, du_x=1e-6)),
+        lambda case: mdr.slide(case, 1e-4, **KNOBS).cof,
+    ),
+    "across": (
+        replace(RIGID, shake=mdr.InPlaneOscillation(OMEGA, du_y=1e-6)),
+        lambda case: mdr.slide(case, 1e-4, **KNOBS).cof,
+    ),
+    "load": (
+        replace(BODY, oscillation=mdr.LoadOscillation(0.1, 0.02, OMEGA)),
+        lambda case: mdr.slide(case, 1e-4, **KNOBS).cof,
+    ),
+    "half-space": (RIGID, lambda case: mdr.half_space.slide(case, 2e-4, cells=16, steps_per_period=16).cof),
+    "record": (RIGID, lambda case: mdr.slide(case, 1e-4, record=1, **KNOBS).F_x),
+    "found": (RIGID, lambda case: mdr.find(case, "tau_0", v_0=1e-4, cof=0.6, within=(1e3, 1e5)).values),
+}
+
+
+@pytest.mark.parametrize("what", ASKED)
+def test_a_law_from_outside_is_asked_everywhere(what):
+    case, asked = ASKED[what]
+    np.testing.assert_array_equal(asked(case), asked(replace(case, friction=mdr.ShearStrength(0.5, 1e4))))
+
+
+def test_a_law_stands_in_its_own_file():
+    """How many files of mdr name a law."""
+    naming = [path for path in (ROOT / "mdr").rglob("*.py") if "ShearStrength" in path.read_text(encoding="utf-8")]
+    assert len(naming) <= 4  # with the closed forms that a strength has, and the words of their domain
+
+
 # --- the guide ---
 
 SECTIONS = {text.partition("\n")[0]: text for text in GUIDE.split("\n## ")[1:]}
-LISTS = {"A shape": mdr.indenters, "A material": mdr.materials, "A motion": motion}
+LISTS = {"A shape": mdr.indenters, "A material": mdr.materials, "A law of friction": friction, "A motion": motion}
 
 
 def _names_in(path):
@@ -169,7 +216,9 @@ def test_a_motion_of_ones_own_that_never_touches_is_refused():
 @pytest.mark.parametrize("section", LISTS)
 def test_the_guide_names_every_file_that_a_new_part_touches(section):
     """A file of the package or of the reference that names every shape, material or motion is a list to be edited."""
-    base = {"A shape": "Indenter", "A material": "Material", "A motion": "Motion"}[section]
+    base = {"A shape": "Indenter", "A material": "Material", "A law of friction": "Friction", "A motion": "Motion"}[
+        section
+    ]
     functions = {"Profile"}  # holds a function, which no example can
     names = set(LISTS[section].__all__) - {base} - functions
     lists = {
