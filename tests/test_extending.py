@@ -157,7 +157,7 @@ ASKED = {
     "static": (RIGID, mdr.static_cof),
     "curve": (RIGID, lambda case: mdr.cof_curve(case, [1e-4, 3e-4], **KNOBS).cof),
     "measured": (
-        replace(BODY, material=mdr.KelvinVoigt(3e6, 0.5, 2e-3)),
+        replace(RIGID, material=mdr.KelvinVoigt(3e6, 0.5, 2e-3)),
         lambda case: mdr.measure_critical_velocity(case).v_c,
     ),
     "verdict": (BODY, lambda case: mdr.verdict(case).why),
