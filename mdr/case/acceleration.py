@@ -26,7 +26,7 @@ from mdr.tools.warned import warn_outside
 #: symbol and unit of a displacement and its derivatives
 DERIVATIVES = (("u", "m"), ("v", "m/s"), ("a", "m/s²"))
 LEAST_PERIODS = 2.9  #: in a record: three, but for what their number is uncertain by
-MOST = 100  #: harmonics that are looked at
+MOST_HARMONICS = 100  #: harmonics that are looked at
 BINS = 2**12  #: of a period, about whose middles sums of samples are Taylor series
 AT_ONCE = 2**15  #: samples of one pass that are held
 STEPS = 100  #: of the frequency; some ten are needed
@@ -51,7 +51,7 @@ class _Record(NamedTuple):
 
     def most(self, omega: float) -> int:
         """Harmonics below half of the sampling rate, by what the record can tell apart."""
-        return min(MOST, int((self.t.size / 2 - 1) / self.periods(omega)))
+        return min(MOST_HARMONICS, int((self.t.size / 2 - 1) / self.periods(omega)))
 
     def periods(self, omega: float) -> float:
         return omega * self.span / (2 * np.pi)
@@ -237,7 +237,7 @@ def _fundamental(record: _Record) -> float:
     """
     omega, order = _tuned(record, _loudest(record), 1), 1
     score, rest = _score(record, omega)
-    while (q := _divisor(record, omega, rest)) > 1 and order * q <= MOST:
+    while (q := _divisor(record, omega, rest)) > 1 and order * q <= MOST_HARMONICS:
         trial = _tuned(record, omega / q, order * q)
         better, rest = _score(record, trial)
         if better > score - 2 * np.log(record.t.size):  # as a harmonic counts
@@ -264,7 +264,7 @@ def _divisor(record: _Record, omega: float, rest: _Record) -> int:
     """The least q for which omega/q has the loudest line of the rest among its multiples; 1 where there is none."""
     # lines nearer than 0.3 over the length of the record are one
     ratio, off = _loudest(rest) / omega, 0.3 / record.periods(omega)
-    most = min(MOST, int(record.periods(omega) / LEAST_PERIODS))
+    most = min(MOST_HARMONICS, int(record.periods(omega) / LEAST_PERIODS))
     return next((q for q in range(1, most + 1) if abs(round(q * ratio) / q - ratio) < off), 1)
 
 
@@ -314,7 +314,7 @@ def _tell(record: _Record, omega: float, fit: _Fit) -> None:
             f"{record.name}, {drift.var() / all_of_it:.0%} of it a linear drift: noise, another frequency, or a wrong "
             "one?"
         )
-    if fit.orders[-1] == record.most(omega) < MOST:
+    if fit.orders[-1] == record.most(omega) < MOST_HARMONICS:
         warn_outside(
             f"the harmonics of {record.name} stand out of its noise up to half of the sampling rate, "
             f"{fit.orders[-1]} of them: higher ones would be aliased; sample faster, behind a low-pass filter"

@@ -36,7 +36,7 @@ MOST_G = 1e6  #: acceleration over that of gravity; an ultrasonic horn reaches s
 METALLIC = 1e10  #: modulus [Pa], from that of bone and wood on, of solids on which asperities do not flatten
 ROUGHNESS, ASPERITY = 5e-7, 1e-5  #: of machined steel: height, and width of a contact that has many asperities [m]
 ULTRASONIC = 2 * np.pi * 16e3  #: rad/s
-LEAST = 5e-4  #: amplitude over mean depth, chi and omega tau that have next to no effect
+LEAST_EFFECT = 5e-4  #: amplitude over mean depth, chi and omega tau that have next to no effect
 HEAVIEST = 1e4  #: weight of the body over the mean load
 MOST_DAMPED = 10.0  #: damping ratio c_x/(2 sqrt(k_x m)) of the body
 
@@ -148,12 +148,12 @@ def _of_motion(known: SlidingContact) -> Iterator[str]:
             f"u_z0 = {known.cycle.u_z0:.4g} m), so that the indenter hammers, in the air most of the time; if this is "
             "not meant, du_z and u_z0 may be swapped"
         )
-    if is_given and known.oscillation.omega and 0 < known.alpha < LEAST:
+    if is_given and known.oscillation.omega and 0 < known.alpha < LEAST_EFFECT:
         yield (
             f"the amplitude of the depth is {known.alpha:.3g} of the mean depth (du_z = {known.cycle.du_z:.4g} m, "
             f"u_z0 = {known.cycle.u_z0:.4g} m), which has next to no effect: is one of them in another unit?"
         )
-    if known.is_shaken and max(known.chi, known.eta) < LEAST:
+    if known.is_shaken and max(known.chi, known.eta) < LEAST_EFFECT:
         yield (
             f"the amplitude of the shake is {max(known.chi, known.eta):.3g} of that at which every spring slips at "
             "rest, which has next to no effect: is an amplitude, a depth or a load in another unit?"
@@ -184,7 +184,7 @@ def _of_material(known: SlidingContact) -> Iterator[str]:
             f"omega tau = {T:.3g} is the loss tangent of this Kelvin body, and that of rubber is below 3: is tau "
             "in ms, or omega far beyond the measurement of tau? A material with arms (Prony) stays bounded there"
         )
-    if 0 < T < LEAST and not known.material.contact_arms:
+    if 0 < T < LEAST_EFFECT and not known.material.contact_arms:
         yield (
             f"omega tau = {T:.3g} is the loss tangent of this Kelvin body, which has next to no effect: is tau or the "
             "frequency in another unit?"

@@ -25,7 +25,7 @@ from mdr.tools.fields import Record, facts
 __all__ = ["InPlaneMotion", "InPlaneOscillation"]
 
 PLACES = ("tool", "pull")  #: where the motion may act
-MOST = 16  #: p and q, at most, of the ratio p/q of two frequencies
+MOST_RATIO = 16  #: p and q, at most, of the ratio p/q of two frequencies
 SAWTOOTH = tuple(round(8e-6 / (np.pi * n), 7) for n in range(1, 4))  #: of the example [m]
 
 
@@ -150,13 +150,13 @@ class InPlaneMotion(Shake):
 
 @lru_cache(maxsize=256)
 def whole_ratio(one: float, other: float) -> tuple[int, int]:
-    """p, q of one/other = p/q, two frequencies whose sum is periodic. ValueError where p or q exceeds `MOST`."""
-    ratio = Fraction(one / other).limit_denominator(MOST)
+    """p, q of one/other = p/q, two frequencies whose sum is periodic. ValueError where p or q exceeds `MOST_RATIO`."""
+    ratio = Fraction(one / other).limit_denominator(MOST_RATIO)
     p, q = ratio.numerator, ratio.denominator
-    if not (1 <= p <= MOST and abs(p / q * other / one - 1) <= SAME):
+    if not (1 <= p <= MOST_RATIO and abs(p / q * other / one - 1) <= SAME):
         raise ValueError(
             f"omega of the shake, {other:.9g} rad/s, and of the oscillation, {one:.9g} rad/s, must be in the ratio of "
-            f"whole numbers up to {MOST}: else the motion is not periodic, and has no average over a period"
+            f"whole numbers up to {MOST_RATIO}: else the motion is not periodic, and has no average over a period"
         )
     return p, q
 

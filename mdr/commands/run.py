@@ -16,7 +16,7 @@ from mdr.commands.velocity import v_c_text
 from mdr.commands.written import add_output, made_by, make_folder, require_free, write_found, writing
 from mdr.friction.cof_curve import LEAST_KNOB
 from mdr.half_space.friction import Settings
-from mdr.half_space.run import LEAST, PERIODS
+from mdr.half_space.run import LEAST_CELLS, PERIODS
 
 
 def add_options_of_run(command: argparse.ArgumentParser) -> None:
@@ -66,8 +66,8 @@ def add_options_of_half_space(command: argparse.ArgumentParser) -> None:
     add_velocity(command)
     add_output(command, "half_space.csv", "half_space.png", "half_space.svg")
     for name, least, most, what in (
-        ("--cells", LEAST, 1000, f"cells along each side of the grid (default: {Settings.cells})"),
-        ("--steps", LEAST, 100_000, f"time steps of a period (default: {Settings.steps})"),
+        ("--cells", LEAST_CELLS, 1000, f"cells along each side of the grid (default: {Settings.cells})"),
+        ("--steps", LEAST_CELLS, 100_000, f"time steps of a period (default: {Settings.steps})"),
         ("--cycles", 1, 100_000, f"periods (default: until friction has settled, {PERIODS} at most)"),
     ):
         command.add_argument(name, metavar="n", type=whole_number(least, most), help=what)

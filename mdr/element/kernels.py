@@ -30,7 +30,7 @@ _LINKED: Any = {"error_model": "numpy", "fastmath": {"reassoc", "contract"}, **L
 
 N_HEAD = 4  #: numbers of a state before its springs: the last u, and the work; behind them is the mark of its element
 NOT_FINITE, OF_ANOTHER, IMPOSSIBLE, BEYOND = 1, 2, 3, 4  #: faults of a state, and of what comes out of a step
-LEAST, MOST = 1e-9, 1e-7  #: by which a position is moved for a tangent, in scaled form
+LEAST_MOVED, MOST_MOVED = 1e-9, 1e-7  #: by which a position is moved for a tangent, in scaled form
 SHARE = 1e-3  #: of the motion in a step, between these
 EVEN = 3e-7  #: of the stiffness of the contact, by which the rate of the force of a spring may change on such a way
 NEARER, FARTHER = 2, 4  #: looks, each at a tenth, to tell the end of the step from an event near it; and beyond one
@@ -244,9 +244,9 @@ def steps(states, us, h, contact, mark, pull, tangents):
         if tangents.size > 0:
             forces(room.each, room.F[0])
             far = max(abs(way[0]), abs(way[1]), abs(way[2]))
-            d = MOST * max(far, 1.0)
+            d = MOST_MOVED * max(far, 1.0)
             if far > 0.0:  # at rest springs switch at no distance, or at a finite one
-                d = min(d, max(SHARE * far, LEAST))
+                d = min(d, max(SHARE * far, LEAST_MOVED))
             for j in range(3):
                 side = way[j]
                 if side == 0.0 and j < 2:  # it goes on the way of the friction

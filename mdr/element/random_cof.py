@@ -36,7 +36,7 @@ SAMPLES = 32  #: of the shortest period
 CORRELATIONS = 64  #: times of correlation in a history
 MEMORIES = 16  #: times that the pull goes through the rms, or the slowest relaxation lasts, in it at least
 LEAST_REALISATIONS = 8
-SLOW = 100  #: relaxation time over that of correlation, of an arm that bears little but the deviation from a mean
+SLOW_ARM = 100  #: relaxation time over that of correlation, of an arm that bears little but the deviation from a mean
 RELAXED = 12  #: relaxation times after which the start is forgotten
 MOST_SAMPLES = 2**24  #: of a history
 
@@ -211,7 +211,8 @@ def _samples(case: SlidingContact, spectrum: Spectrum, slowest: float) -> tuple[
     if n_t > MOST_SAMPLES and relaxation > pull:
         raise ValueError(
             f"a relaxation time of {relaxation:.6g} s is longer than histories of {MOST_SAMPLES} samples are: lower it "
-            f"to {SLOW * spectrum.correlation_time:.3g} s, {SLOW} times that of correlation: it relaxes about a mean"
+            f"to {SLOW_ARM * spectrum.correlation_time:.3g} s, {SLOW_ARM} times that of correlation: it relaxes about "
+            "a mean"
         )
     if n_t > MOST_SAMPLES:
         raise ValueError(

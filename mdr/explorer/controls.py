@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mdr.case.contact import KINDS, as_given
-from mdr.case.in_plane import MOST, PLACES
+from mdr.case.in_plane import MOST_RATIO, PLACES
 from mdr.case.paths import GROUPS, facts_at, fields_at, fields_set, slot_of
 from mdr.closed_forms.critical_velocity import UP_TO, velocity_scale
 from mdr.explorer.state import DECADE, State, group_values, scales_of
@@ -86,7 +86,9 @@ def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float
     if path in GROUPS:  # as the field that it sets
         rule = positive if path == "omega_0/omega" else facts_at(fields_set(path)[0]).rule
     if path == "shake.omega" and case.oscillation.omega:
-        ratios = {ratio for n in range(1, MOST + 1) for ratio in (n, 1 / n)}  # multiples and parts: of short periods
+        ratios = {
+            ratio for n in range(1, MOST_RATIO + 1) for ratio in (n, 1 / n)
+        }  # multiples and parts: of short periods
         return sorted({*(ratio * case.oscillation.omega for ratio in ratios), value})
     if facts.unit == "rad" and _accepts(rule, name, -1.0):
         return np.linspace(-np.pi, np.pi, STEPS + 1)

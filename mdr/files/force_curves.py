@@ -36,7 +36,7 @@ ON_IT = 1e-3  #: part of a step of depth within which a reading is that of the t
 POWERS = (1.0, 1.25, 1.5, 1.75, 2.0)  #: n of a tip that is not known: a flat one to a cone
 FLAT = 5  #: points before the touch that make a baseline
 TOLD_FROM = 10  #: the same, from which their noise is known
-LEAST = 2  #: the same of a curve whose readings are no depths
+LEAST_FLAT = 2  #: the same of a curve whose readings are no depths
 DEPTHS = ("depth", "indentation", "indentation depth", "penetration", "penetration depth")
 HEIGHTS = (
     "displacement", "extension", "height", "measured height", "height sensor", "piezo", "piezo height",
@@ -119,7 +119,7 @@ def read_force_curve(
         raise measured.fault("the forces scatter and do not rise: nothing is touched, or the column is another")
     # the point (0, 0) is added to a depth that is at most three of the widest steps away
     are_depths = d.size < 2 or 0 <= d[0] <= 3.0 * float(np.diff(d).max())
-    found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST else None
+    found = touch_of(d, F, power) if touch is None and d.size > 2 * LEAST_FLAT else None
     if found is not None and _begins_before(d, F, found[0], are_depths):
         unbent = give * found[1] if baseline is None else 0.0  # of a cantilever, by what was not taken off yet
         touch, baseline, d = found[0] + unbent, found[1] if baseline is None else baseline, d + unbent
@@ -226,7 +226,7 @@ def _one_way(table: Table, z: Array, F: Array, part: str) -> NDArray[np.intp]:
 def _begins_before(d: Array, F: Array, touch: float, are_depths: bool) -> bool:
     """Whether there is a force before the touch, which does not rise, where the readings could be depths."""
     flat = F[d < touch]
-    return flat.size >= (FLAT if are_depths else LEAST) and not (are_depths and np.mean(np.diff(flat) > 0) > 0.75)
+    return flat.size >= (FLAT if are_depths else LEAST_FLAT) and not (are_depths and np.mean(np.diff(flat) > 0) > 0.75)
 
 
 def touch_of(d: Array, F: Array, power: float) -> tuple[float, float]:

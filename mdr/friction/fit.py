@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WORTH = 0.1  #: of the error of a measurement, which runs are to keep to
-LEAST = 16  #: springs, or steps of a period, of a run that is worth anything
+LEAST_GRID = 16  #: springs, or steps of a period, of a run that is worth anything
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
 
@@ -272,7 +272,7 @@ class _Model:
         first = resolved(self.case)
         most = default_springs(first), default_steps(first)
         shares = (1,) if first in CLOSED_FORM else (4, 2, 1)
-        sizes = list(dict.fromkeys((max(most[0] // k, LEAST), max(most[1] // k, LEAST)) for k in shares))
+        sizes = list(dict.fromkeys((max(most[0] // k, LEAST_GRID), max(most[1] // k, LEAST_GRID)) for k in shares))
         for size, finer in zip(sizes, [*sizes[1:], None], strict=True):
             self.size, self._at = size, lru_cache(maxsize=2)(self._deviations)  # the same of all, or curves would jump
             try:

@@ -38,7 +38,7 @@ from mdr.tools.companions import Companion, bound
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
 
-LEAST = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
+LEAST_V_C = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
 #: why a curved elastic face with a shear strength has no critical velocity, and one that is shaken across
@@ -223,8 +223,8 @@ class _Search:
             return self._without("none", "friction stays reduced, or stick goes on, up to the highest velocity tried")
         v_c, low, high = self._locate(free)
         low, high = max(low - self.doubt, 0.0), high + self.doubt
-        if v_c <= LEAST * self.scale:
-            why = f"stick ends below {LEAST:g} of Eq. (1), which is not told from zero"
+        if v_c <= LEAST_V_C * self.scale:
+            why = f"stick ends below {LEAST_V_C:g} of Eq. (1), which is not told from zero"
             return MeasuredVelocity(v_c, low, high, "end of stick", why, n_runs=self.n_runs)
         return self._look_above(v_c, low, high)
 
@@ -282,7 +282,7 @@ class _Search:
             if far.settled:
                 guess = far.v_0 - far.least_slip if _is_free(far) else guess
                 break
-        v_0 = 1.37 * max(guess, LEAST * self.scale)
+        v_0 = 1.37 * max(guess, LEAST_V_C * self.scale)
         while v_0 < HIGHEST * max(guess, self.scale):
             run = self.quick_run(v_0)
             if _is_free(run):
@@ -311,7 +311,7 @@ class _Search:
                 ends.append(free.v_0 - free.least_slip)
             by_chance = (Companion(abs(ends[i] - ends[1])) for i in (0, 2))
             self.doubt = bound(Companion(abs(ends[2] - ends[0])), others=tuple(by_chance))
-            enough = self.margin * max(free.v_0 - free.least_slip, LEAST * self.scale)
+            enough = self.margin * max(free.v_0 - free.least_slip, LEAST_V_C * self.scale)
             if self.doubt <= enough or 2 * self.steps > MOST_STEPS or 2 * self.n_springs > MOST_SPRINGS:
                 self.steps, self.n_springs = steps, n_springs
                 return free
@@ -327,9 +327,9 @@ class _Search:
         # the rate of a parabola is off by h²/12 where stick ends: that of these steps by half of the margin
         steps = int(oscillations(self.case) * np.pi * np.sqrt(2 / (3 * self.margin)))
         self.steps = max(self.steps, min(steps, MOST_STEPS))
-        if guess <= LEAST * self.scale and _is_free(slow := self.quick_run(LEAST * self.scale)):
+        if guess <= LEAST_V_C * self.scale and _is_free(slow := self.quick_run(LEAST_V_C * self.scale)):
             return max(slow.v_0 - slow.least_slip, 0.0), 0.0, slow.v_0
-        guess = max(guess, LEAST * self.scale)
+        guess = max(guess, LEAST_V_C * self.scale)
         for width in (self.margin, 4 * self.margin, 16 * self.margin, 64 * self.margin):
             above, below = (self._decided(guess * (1 + side * width)) for side in (1, -1))
             if _is_free(above) and not _is_free(below):

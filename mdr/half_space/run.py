@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PERIODS = 60  #: at most, unless they are given
-LEAST = 8  #: cells along a side, and steps of a period
+LEAST_CELLS = 8  #: cells along a side, and steps of a period
 SETTLED = 1e-4  #: share of mu_0 that the COF may still change by
 STARTS = ("full_slip", "rest")
 
@@ -331,14 +331,14 @@ def _settings(
     if start not in STARTS:
         raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
     settings = Settings(
-        Settings.cells if cells is None else count("cells", cells, LEAST),
-        Settings.steps if steps is None else count("steps_per_period", steps, LEAST),
+        Settings.cells if cells is None else count("cells", cells, LEAST_CELLS),
+        Settings.steps if steps is None else count("steps_per_period", steps, LEAST_CELLS),
         PERIODS if periods is None else count("n_periods", periods, 1),
         coupled,
         settled=SETTLED if periods is None else 0.0,
         from_rest=start == "rest",
     )
-    contact_of(case, replace(settings, cells=LEAST))
+    contact_of(case, replace(settings, cells=LEAST_CELLS))
     return settings
 
 

@@ -23,7 +23,7 @@ from mdr.tools.warned import warn_outside
 A_DECADE = 10  #: times of the grid; a sum of two neighbours is one between them to 0.1 %
 CHANCE = 0.0027  #: of a difference that counts: three standard deviations
 DIGITS = 0.01  #: to which tests are good at best
-MOST, SETTLED = 60, 1e-6  #: steps of a search for times; share of what is left by which one must lower it
+MOST_STEPS, SETTLED = 60, 1e-6  #: steps of a search for times; share of what is left by which one must lower it
 
 
 class Data(NamedTuple):
@@ -149,7 +149,7 @@ def _moved(data: Data, start: ArrayLike, grid: Array) -> Sum:
     found = least_squares(
         lambda x: of_times(data, np.exp(x)).left,
         np.clip(start, low + margin, high - margin),  # inside the range, where a search may begin
-        bounds=(low, high), xtol=EXACT, ftol=SETTLED, gtol=EPS, max_nfev=MOST,
+        bounds=(low, high), xtol=EXACT, ftol=SETTLED, gtol=EPS, max_nfev=MOST_STEPS,
     )  # fmt: skip
     x = np.sort(found.x)[::-1]
     return of_times(data, np.exp(x[np.diff(x, prepend=np.inf) < -margin]))  # times that met are one

@@ -28,7 +28,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST_IN_PLANE, *
 BEGINS = -1  #: the mode is still to be found
 MOST_HALVINGS = 60  #: in the search for the end of a mode
 SHORTEST = 1 / 16  #: part of a step that slip is followed for at once, however its leash changes
-SLOW = 8.0  #: times a time: of a dashpot beside arms, from which on it is slow in it
+SLOW_DASHPOT = 8.0  #: times a time: of a dashpot beside arms, from which on it is slow in it
 SOON = 1e-6  #: part of a time: whether a spring on arms slips at once, or leaves the rim inward, is told there
 INSIDE = 10.0  #: times what is rounding, by which a force is told from one on the rim
 MOST_RETURNS = 4  #: of the memory of arms at the end of slip, upon which the slip depends
@@ -276,7 +276,7 @@ def arms_give(t, k, G, T, tools, arms):
 @_inline
 def is_slow(t, T, arms):
     """True for a dashpot so slow in a time that its yield is taken from the integral of the force."""
-    return t < T if arms is None else SLOW * t < T
+    return t < T if arms is None else SLOW_DASHPOT * t < T
 
 
 @_inline

@@ -26,7 +26,7 @@ from mdr.spring.path import FAST, LENT, OWN, ROUNDING, size_of
 from mdr.tools.arrays import Array
 from mdr.tools.jit import inner
 
-SLOW = 0.01  #: part of its time, up to which an arm hardly relaxes
+SLOW_ARM = 0.01  #: part of its time, up to which an arm hardly relaxes
 
 _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 _own = inner(forceinline=True, error_model="numpy", fastmath=FAST, **OWN)  # what gives an array to those that own some
@@ -139,7 +139,7 @@ def add_force(q, i, c, t, T, arms):
     S, P, D, E = 1.0, 0.0, T, 0.0  # L[r] = S r + D r' - E r'', less P r' u²
     if arms is not None:
         for j in range(arms.rho.size):
-            if arms.rate[j] * t < SLOW:
+            if arms.rate[j] * t < SLOW_ARM:
                 S, P = S + arms.rho[j], P + 0.5 * arms.rho[j] * arms.rate[j]
             else:
                 theta = 1.0 / arms.rate[j]
@@ -149,6 +149,6 @@ def add_force(q, i, c, t, T, arms):
     q[0, i] = q[0, i] + c[0] - D * r_1 + 2.0 * E * r_2
     if arms is not None:
         for j in range(arms.rho.size):
-            if arms.rate[j] * t >= SLOW:
+            if arms.rate[j] * t >= SLOW_ARM:
                 q[1 + j, i] += (r_1 - 2.0 * r_2 / arms.rate[j]) / arms.rate[j]
     return r_1, r_2

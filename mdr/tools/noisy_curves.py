@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mdr.tools.arrays import EXACT, Array
 
-SLOW = 0.25  #: share of a rate, below which a rise stands still; as the root of time it slows to a third
+SLOW_RISE = 0.25  #: share of a rate, below which a rise stands still; as the root of time it slows to a third
 FEW = 2  #: readings, of which none is left out
 TINY = float(np.finfo(float).tiny)
 
@@ -44,7 +44,7 @@ def before_it_stands(x: Array, is_high: NDArray[np.bool_]) -> int:
         k = start + int(np.argmax(ahead))  # where it slows most
         if ahead[k - start] <= noise or x.size - k <= FEW:
             break
-        if is_high[k] and (x[-1] - x[k]) / (x.size - 1 - k) < SLOW * (x[k] - x[start]) / (k - start):
+        if is_high[k] and (x[-1] - x[k]) / (x.size - 1 - k) < SLOW_RISE * (x[k] - x[start]) / (k - start):
             return k + 1
         start = k
     return int(x.size)

@@ -131,7 +131,7 @@ def test_another_tolerance_needs_no_other_measurement(world):
 
 
 @pytest.mark.parametrize(("case", "end", "begins", "deviation", "good", "holds"), [
-    (ZERO, 0.3, "almost zero here; use {use} m/s. Measured in runs", 0.3 / measured_velocity.LEAST, False, False),
+    (ZERO, 0.3, "almost zero here; use {use} m/s. Measured in runs", 0.3 / measured_velocity.LEAST_V_C, False, False),
     (ZERO, 5e-5, "almost zero here, and so is the measured v_c. Measured in runs", None, False, True),
     (CASE, 0.0, "too high here, where v_c is almost zero; use {use} m/s. ", None, False, False),
     (CASE, 1e-6, "too high here, where v_c is almost zero; use {use} m/s. ", None, False, False),
@@ -144,7 +144,7 @@ def test_where_a_velocity_vanishes_there_is_no_percentage(world, case, end, begi
     assert "%" not in str(told)
     assert "factor" not in str(told)
     if case is ZERO:
-        assert told.eq_15 < measured_velocity.LEAST * UNIT
+        assert told.eq_15 < measured_velocity.LEAST_V_C * UNIT
     if deviation:
         assert told.deviation == pytest.approx(deviation, rel=1e-3)
 

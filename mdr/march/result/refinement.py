@@ -44,7 +44,7 @@ from mdr.march.periodic.steady import (
 from mdr.tools.companions import Companion, bound
 from mdr.tools.progress import Ticker, time_is_over
 
-MOST, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
+MOST_ASKED, MOST_KEPT = 10**6, 2e8  #: springs, or steps of a period; values of a record per array
 N_SPRINGS, N_STEPS = 32, 64  #: first choice for a plain contact: with it most have an error below 1e-5
 MOST_PIECES = 5  #: of the row of a shape without kinks, each of at least two springs (spring_grid.py)
 MOST_SPRINGS, MOST_STEPS = 4096, 16384  #: that are chosen
@@ -186,10 +186,10 @@ def resolution_of(
 
 def check_size(n_springs: int, steps: int, record: int) -> None:
     """Refuse more springs, steps or periods of a record than memory holds."""
-    if max(n_springs, steps) > MOST or n_springs * steps * record > MOST_KEPT:
+    if max(n_springs, steps) > MOST_ASKED or n_springs * steps * record > MOST_KEPT:
         raise ValueError(
             f"n_springs = {n_springs}, steps_per_period = {steps}, record = {record} is more than memory "
-            f"holds: at most {MOST} springs or steps, and {MOST_KEPT:g} values of a record"
+            f"holds: at most {MOST_ASKED} springs or steps, and {MOST_KEPT:g} values of a record"
         )
 
 
