@@ -86,9 +86,8 @@ def _grid(state: State, path: str, facts: Facts, value: float) -> Iterable[float
     if path in GROUPS:  # as the field that it sets
         rule = positive if path == "omega_0/omega" else facts_at(fields_set(path)[0]).rule
     if path == "shake.omega" and case.oscillation.omega:
-        ratios = {
-            ratio for n in range(1, MOST_RATIO + 1) for ratio in (n, 1 / n)
-        }  # multiples and parts: of short periods
+        # multiples and parts: of short periods
+        ratios = {ratio for n in range(1, MOST_RATIO + 1) for ratio in (n, 1 / n)}
         return sorted({*(ratio * case.oscillation.omega for ratio in ratios), value})
     if facts.unit == "rad" and _accepts(rule, name, -1.0):
         return np.linspace(-np.pi, np.pi, STEPS + 1)

@@ -25,7 +25,7 @@ from mdr.friction.measured_velocity import (
     ACROSS,
     AT_THE_EDGE,
     HIGHEST,
-    LEAST,
+    LEAST_V_C,
     MeasuredVelocity,
     measure_critical_velocity,
 )
@@ -236,7 +236,7 @@ def _at_rest(case: SlidingContact) -> str:
 def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy: float) -> Verdict:
     """The verdict on the pull forward."""
     eq_15, full = critical_velocity(case), _full_slip(case)
-    found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST * case.pace
+    found, least = measure_critical_velocity(case, limit_s=limit_s, accuracy=accuracy), LEAST_V_C * case.pace
     deviation: float | None = None
     holds: bool | None
     if case.moves_across or case.always_sticks:  # both closed forms say so too
