@@ -37,7 +37,7 @@ def step(s, g, u, v, h, law):
     """
     T, modes, arms = law
     each = Each(np.empty(g.size), np.empty(g.size), np.empty(g.size))
-    tools = new_tools(h, modes, arms, 0.0, 0)
+    tools = new_tools(h, modes, arms, 0.0, np.int64(0))
     press(s, Springs(g, g), Path(u, v, 0.0, 0.0, 0.0), v, T, modes, arms, tools, each)
     return each.pressed_for
 

@@ -140,7 +140,7 @@ def lasts(presses, event, s, i, z, t, k, tol, G, T, modes, arms, tools):
             left, _ = alone(x, rate, fallen)
         apart = plus(left, -1.0, on_parabola(z_0, z_1, z_2, 0.0, t))
         if not stays(apart, t, tol):
-            until = until_alone(apart, -z_0, -z_1, -z_2, x, False, t, tol, modes, arms, tools)
+            until = until_alone(apart, -z_0, -z_1, -z_2, x, np.bool_(False), t, tol, modes, arms, tools)
     return presses, until
 
 

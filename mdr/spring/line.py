@@ -13,6 +13,8 @@ slip back  e with -q    q + e (L[e] = -L[q])     likewise
 # mypy: disallow-untyped-defs=false, disallow-untyped-calls=false
 from __future__ import annotations
 
+import numpy as np
+
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, SLIP_BACK, STICK
 from mdr.spring.energies import LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, of_slipping
@@ -84,7 +86,7 @@ def until_stick(sign, q, e, i, z, x, u, k, tol, modes, arms, tools):
     slips = plus(left_rate, 1.0, on_parabola(p, p_2, 0.0, 0.0, u))
     if stays(slips, u, tol):
         return NEVER
-    return until_alone(slips, p, p_2, 0.0, lag, True, u, tol, modes, arms, tools)
+    return until_alone(slips, p, p_2, 0.0, lag, np.bool_(True), u, tol, modes, arms, tools)
 
 
 @_inline

@@ -200,7 +200,7 @@ def until_held(f, x, s, e, i, of_s, of_e, p, q, t, tol, T, modes, arms, tools):
     J = arms.rho.size
     for j in range(J):
         tools.room.work[j] = of_s * s[1 + j, i] + of_e * e[1 + j, i]
-    return zero(t, tol, x + T * p, p + 2.0 * T * q, q, p, q, 0.0, J, 0, modes, arms, tools)
+    return zero(t, tol, x + T * p, p + 2.0 * T * q, q, p, q, 0.0, J, np.int64(0), modes, arms, tools)
 
 
 @_inline
@@ -214,4 +214,4 @@ def until_alone(f, a, b, c, x, rates, t, tol, modes, arms, tools):
         for k in range(modes.mu.size):
             tools.room.work[k] = modes.out[0, k] * tools.room.modes[k] * (-modes.mu[k] if rates else 1.0)
     m = x * (-modes.mu[0] if rates else 1.0)
-    return zero(t, tol, a, b, c, 0.0, 0.0, m, 0, modes.mu.size, modes, arms, tools)
+    return zero(t, tol, a, b, c, 0.0, 0.0, m, np.int64(0), modes.mu.size, modes, arms, tools)

@@ -21,7 +21,7 @@ from mdr.spring.disc import rub_disc
 from mdr.spring.line import rub_line
 from mdr.spring.motion import end_force, hold
 from mdr.spring.path import FAST, LENT
-from mdr.spring.times import STEP
+from mdr.spring.times import ALONE, STEP
 from mdr.spring.whole import whole_in_plane, whole_on_line
 from mdr.tools.compiler import Complex, NoneType, overload
 from mdr.tools.jit import inner
@@ -114,5 +114,5 @@ def as_they_are(path, last, T, arms, tools, lumped, zd, xd):
     """
     h, sticking, part = tools.times.h, last.sticking, last.sticking + 2.0 * last.back
     p, q = sticking * path.x_1 - part * path.z_1, sticking * path.x_2 - part * path.z_2
-    area, moment = hold(lumped, 0, p, q, h, STEP, T, tools, arms)
-    return area, moment, end_force(lumped, 0, sticking * xd - part * zd, T, arms)
+    area, moment = hold(lumped, ALONE, p, q, h, STEP, T, tools, arms)
+    return area, moment, end_force(lumped, ALONE, sticking * xd - part * zd, T, arms)

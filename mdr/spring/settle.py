@@ -103,7 +103,7 @@ def period(s, gap, w, z, z_dot, T, modes, arms, sums, force, pressed_for):  # ty
     """One period of the normal motion: s (1 + J, n) is updated, the rest filled, as of NormalPeriod; sums (5, n_t)."""
     n_t, n = z.size - 1, gap.size
     h = 2.0 * np.pi / n_t
-    tools = new_tools(h, modes, arms, 0.0, 0)
+    tools = new_tools(h, modes, arms, 0.0, np.int64(0))
     each = Each(np.empty(n), np.empty(n), np.empty(n))
     for k in range(n_t):
         z_2 = (z_dot[k + 1] - z_dot[k]) / (2.0 * h)

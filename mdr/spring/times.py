@@ -12,7 +12,9 @@ from mdr.spring.path import FAST, LENT
 from mdr.tools.arrays import Array
 from mdr.tools.jit import inner
 
-STEP, PART = 0, 1  #: rows of Times: of the whole step, and of the part of it that is being followed
+# for each value of a literal numba would compile a function anew: these are none
+STEP, PART = np.int64(0), np.int64(1)  #: rows of Times: of the whole step, and of the part of it that is being followed
+ALONE = np.int64(0)  #: place of a spring that has arrays of its own
 
 
 class Times(NamedTuple):
