@@ -26,7 +26,7 @@ from mdr.closed_forms.shaken_pull import average_friction as shaken_friction
 from mdr.march.periodic.steady import BUDGET, Resolution, accuracy_of
 from mdr.march.periodic.theorems import disordered
 from mdr.march.result.refinement import resolution_of
-from mdr.march.result.run import finish
+from mdr.march.result.run import finish, friction_of
 from mdr.march.result.slide import SLOWEST, runs
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
@@ -220,7 +220,13 @@ class _Asked:
     """What is asked of a curve."""
 
     def __init__(
-        self, case: SlidingContact, v_0: Array, method: str | None = None, accuracy: float = BUDGET, **knobs: Any
+        self,
+        case: SlidingContact,
+        v_0: Array,
+        method: str | None = None,
+        accuracy: float = BUDGET,
+        closely: bool = True,
+        **knobs: Any,
     ) -> None:
         self.case, self.v_0, accuracy = case, v_0, accuracy_of(accuracy)
         require_knobs(**knobs)
@@ -228,7 +234,7 @@ class _Asked:
             raise ValueError(f'method must be None or "march", got {method!r}')
         self.is_closed = method is None and case in CLOSED_FORM
         self.counted = _not_too_slow(case, self.v_0, self.is_closed)  #: zero stands for the limit at rest
-        by_runs = partial(_runs, accuracy=accuracy, **knobs)
+        by_runs = partial(_runs, accuracy=accuracy, closely=closely, **knobs)
         self.friction: Friction = _closed_form if self.is_closed else by_runs
 
     @property
@@ -271,7 +277,7 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
     """Friction [-] at one velocity as a curve has it, without the limit at rest; the bound on its error; and why it has
     not settled, "" where it has.
     """
-    asked = _Asked(resolved(case), np.array([v_0]), accuracy=accuracy)
+    asked = _Asked(resolved(case), np.array([v_0]), accuracy=accuracy, closely=False)
     cof, error, settled, _, why, _ = (column[0] for column in asked.columns(asked.counted))
     return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
 
@@ -405,12 +411,20 @@ def _slow_limit(runs: Columns, is_held: bool) -> Point:
 
 
 def _runs(
-    case: SlidingContact, v_0: Array, accuracy: float, n_springs: int | None = None, steps_per_period: int | None = None
+    case: SlidingContact,
+    v_0: Array,
+    accuracy: float,
+    closely: bool,
+    n_springs: int | None = None,
+    steps_per_period: int | None = None,
 ) -> Columns:
-    """One run for each velocity."""
+    """One run for each velocity. closely: whether stick_share is asked for, else NaN."""
     velocities = progress(v_0.tolist(), "COF curve", "velocities")
-    found = [finish(end) for end in runs(case, velocities, resolution_of(case, n_springs, steps_per_period, accuracy))]
-    columns = {name: np.array([getattr(run, name) for run in found]) for name in Columns._fields}
+    of = finish if closely else friction_of
+    found: list[Any] = [
+        of(end) for end in runs(case, velocities, resolution_of(case, n_springs, steps_per_period, accuracy))
+    ]
+    columns = {name: np.array([getattr(run, name, np.nan) for run in found]) for name in Columns._fields}
     return Columns(**{**columns, "why": columns["why"].astype(object)})
 
 

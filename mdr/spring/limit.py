@@ -58,7 +58,7 @@ class Pressing(NamedTuple):
     z: tuple[float, float]  #: z_1, z_2 of the parabola of q, with the time from the start of the stretch
     x: tuple[complex, complex]  #: x_1, x_2 of the displacement of the top
     t: float  #: length of the stretch
-    k: int  #: row of tools.times that is filled for t, STEP or PART
+    k: np.int64  #: row of tools.times that is filled for t, STEP or PART
     begun: float  #: when it begins in the step
     tol: float  #: rounding of a length: what is less counts as zero, of forces and velocities too
     rate_miss: tuple[float, complex]  #: true rates of q and top at the end of the step, less those of the parabolas

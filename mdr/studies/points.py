@@ -117,7 +117,7 @@ def _fill_curves(work: Work, case: SlidingContact, v_0: Array, points: Points) -
     wanted = [(row, one) for row, one in enumerate(work.quantities) if isinstance(one, CurveQuantity)]
     if not wanted:
         return
-    curve = cof_at(case, v_0, **work.knobs)
+    curve = cof_at(case, v_0, closely=any(one.closely for _, one in wanted), **work.knobs)
     for row, one in wanted:
         points.values[row] = one.of(case, curve)
     for j in np.flatnonzero(~curve.settled).tolist():

@@ -66,6 +66,7 @@ class CurveQuantity(Quantity):
 
     of: Callable[..., Any]
     per_velocity: bool = field(default=True, kw_only=True)
+    closely: bool = field(default=True, kw_only=True)  #: whether it reads stick_share, for which springs are looked at
 
 
 @dataclass(frozen=True)
@@ -110,14 +111,18 @@ CATALOGUE: dict[str, Quantity] = {
         Quantity("alpha", "-", _Attribute("alpha", resolved), "relative amplitude du_z/u_z0"),
         Quantity("T", "-", _Attribute("T"), "omega tau of the long-time branch"),
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
-        CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction"),
-        CurveQuantity("cof_y", "-", _Attribute("cof_y"), "the same across the pull, mean F_y over mean F_z"),
-        CurveQuantity("share", "-", _share, "cof over that of full slip, cof/mu_0 by Coulomb's law"),
-        CurveQuantity("cof_error", "-", _Attribute("cof_error"), "bound on the numerical error of cof"),
+        CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction", closely=False),
+        CurveQuantity(
+            "cof_y", "-", _Attribute("cof_y"), "the same across the pull, mean F_y over mean F_z", closely=False
+        ),
+        CurveQuantity("share", "-", _share, "cof over that of full slip, cof/mu_0 by Coulomb's law", closely=False),
+        CurveQuantity("cof_error", "-", _Attribute("cof_error"), "bound on the numerical error of cof", closely=False),
         CurveQuantity("stick_share", "-", _Attribute("stick_share"), "force-weighted share of contact time in stick"),
-        CurveQuantity("settled", "-", _Attribute("settled"), "1 where the run settled, else 0"),
-        CurveQuantity("mean_F_x", "N", _mean_F_x, "mean tangential force, cof times the mean normal force"),
-        CurveQuantity("mean_F_z", "N", _mean_F_z, "mean normal force, the same at any velocity"),
+        CurveQuantity("settled", "-", _Attribute("settled"), "1 where the run settled, else 0", closely=False),
+        CurveQuantity(
+            "mean_F_x", "N", _mean_F_x, "mean tangential force, cof times the mean normal force", closely=False
+        ),
+        CurveQuantity("mean_F_z", "N", _mean_F_z, "mean normal force, the same at any velocity", closely=False),
     )
 }
 

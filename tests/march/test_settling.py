@@ -10,9 +10,11 @@ from numpy.testing import assert_allclose
 import mdr
 from mdr.march.dynamics.energy import OF_MEMORY, does_not_close, energy_balance
 from mdr.march.dynamics.state import UNKNOWN
+from mdr.march.dynamics.stepper import Stepper
 from mdr.march.periodic.settling import MIN_PERIODS, assess, smooth_mean
 from mdr.march.periodic.steady import Resolution, steady
 from mdr.march.result.look import looked_at
+from mdr.march.result.run import finish, friction_of
 from mdr.spring.energies import FRICTION_LOSS
 
 TOLERANCE = 1e-6
@@ -140,6 +142,22 @@ def test_a_run_whose_energies_do_not_close_has_not_settled():
     assert not run.settled
     assert run.why.startswith("the energies of a period do not close")
     assert abs(run.energy_balance.relative) > OF_MEMORY  # more than stiff arms may miss
+
+
+@pytest.mark.parametrize("settles", [True, False])
+def test_a_friction_alone_has_the_digits_of_a_run_and_energies_are_asked_where_they_can_tell_against_it(
+    settles, monkeypatch
+):
+    case, k_xc = contact("cone", 3.0, 0.0), STIFF_ARM.k_xc
+    if not settles:
+        case = replace(STIFF_ARM, pull=mdr.SpringPull(k_xc, k_xc / 300.0**2, 0.3 * k_xc / 300.0))
+    end = steady(case, 0.3 * case.unit_velocity, Resolution(64, 2048, "full_slip", lump=True))
+    run, looks = finish(end), []
+    monkeypatch.setattr(Stepper, "_look", lambda *args, look=Stepper._look: looks.append(args) or look(*args))
+    found = friction_of(end)
+    assert (found.settled, len(looks)) == (settles, not settles)
+    for name in ("cof", "cof_y", "cof_error", "settled", "why"):
+        assert getattr(found, name) == getattr(run, name), name
 
 
 def test_the_account_of_a_period_is_held_to_its_steps():

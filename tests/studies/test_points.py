@@ -32,7 +32,7 @@ def test_a_resonance_is_a_failure_of_the_velocities_and_a_value_of_v_c():
 
 
 def test_a_run_that_did_not_settle_keeps_its_numbers(monkeypatch):
-    def restless(case, v_0, **knobs):
+    def restless(case, v_0, closely, **knobs):
         curve = mdr.cof_curve(case, v_0, **knobs)
         return replace(curve, settled=curve.v_0 < 3e-4, why=tuple("F_x drifts" * bool(v > 2e-4) for v in curve.v_0))
 
@@ -104,6 +104,18 @@ def test_nothing_inside_speaks(capsys, monkeypatch):
     monkeypatch.setattr("mdr.tools.progress.PATIENCE", -1.0)
     compute(work(BODY, {"v_0": [1e-4, 2e-4]}, ["cof"], **COARSE), range(1))
     assert capsys.readouterr().err == ""
+
+
+def test_a_study_looks_at_springs_closely_where_it_is_asked_for_what_they_do(monkeypatch):
+    def refuse(*_):
+        raise RuntimeError("looked")
+
+    monkeypatch.setattr("mdr.march.dynamics.stepper.Stepper._look", refuse)
+    axes = {"v_0": [1e-4, 3e-4]}
+    study = mdr.sweep(BODY, axes, quantities=["cof", "cof_error", "share", "mean_F_x", "settled"], **COARSE)
+    assert study.count(Status.DONE) == 2
+    study = mdr.sweep(BODY, axes, quantities=["cof", "stick_share"], **COARSE)
+    assert study.why.tolist() == ["RuntimeError: looked"] * 2
 
 
 def test_values_are_those_of_direct_calls():

@@ -6,8 +6,9 @@ form and the velocity of the pull, and counts the periods that it marched.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -39,14 +40,19 @@ class Periods(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PeriodRecord:
-    """A period that was looked at closely, in scaled form."""
+    """A period that can be looked at closely, in scaled form."""
 
-    seen: loop.Seen  #: forces, modes and energies
+    look: Callable[[], loop.Seen]  #: steps it again
     y: Array  #: (n_steps + 1,) the body at the start of the period and at the end of every step: complex in the plane
     rate: Array  #: (n_steps + 1,) its velocity there
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
     period: Periods  #: its COF and swing
     solved: bool  #: whether every step of it was solved for
+
+    @cached_property
+    def seen(self) -> loop.Seen:
+        """Forces, modes and energies; the close look is taken when it is asked for."""
+        return self.look()
 
     @property
     def sees_contact(self) -> bool:
@@ -190,15 +196,23 @@ class Stepper:
         return self.scaled.limit.unseen(np.abs(x_1 + length * x_2), self.scaled.drive.z_dot[:-1])
 
     def observe(self, state: MarchState, keep: bool) -> tuple[MarchState, PeriodRecord]:
-        """The state a period later, with a close look; the march is the same with and without `keep`."""
-        scaled, n, n_steps = self.scaled, self.scaled.springs.gap.size, self.scaled.drive.steps
+        """The state a period later, and its record. keep: whether a close look keeps each spring."""
         before, state = state, state.copy()
+        start, last = before.body, self._marched(state, 1)
+        trace = loop.Trace(*(one.copy() for one in last))
+        stored = self.stored_energy(before), self.stored_energy(state)
+        y, rate = (np.append(start[at], one) for at, one in ((Y, trace.y), (RATE, trace.rate)))
+        look = partial(self._look, before.copy(), trace, keep)
+        return state, PeriodRecord(look, y, rate, stored, self.periods_of(trace), self.solved)
+
+    def _look(self, passed: MarchState, trace: loop.Trace, keep: bool) -> loop.Seen:
+        """A close look at a period from a state on, which is changed."""
+        scaled, n, n_steps = self.scaled, self.scaled.springs.gap.size, self.scaled.drive.steps
         sums, F, kept = np.zeros(N_SUMS), np.zeros((n_steps, 4)), n_steps if keep else 0
         mode, f_z, s = np.zeros((3, kept, n))
-        f, e = np.zeros((2, kept, n), state.e.dtype)
+        f, e = np.zeros((2, kept, n), passed.e.dtype)
         seen = loop.Seen(sums, F, mode, f, f_z, e, s)
         sums[LEAST_SLIP] = np.inf
-        trace, passed, start = self._marched(state, 1), before.copy(), before.body
         if scaled.drive.is_shaken:
             sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
         loop.look(passed.e, passed.s, scaled.springs, scaled.strengths, self.motion, scaled.law, trace, seen)
@@ -206,9 +220,7 @@ class Stepper:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:
             sums[SHAKE_WORK] += self._work_of(scaled.drive.across, trace.area.imag, trace.moment.imag)
-        stored = self.stored_energy(before), self.stored_energy(state)
-        y, rate = (np.append(start[at], one) for at, one in ((Y, trace.y), (RATE, trace.rate)))
-        return state, PeriodRecord(seen, y, rate, stored, self.periods_of(trace), self.solved)
+        return seen
 
     def forces_of(self, state: MarchState, i: int) -> tuple[Array, Array]:
         """Force and normal force of a spring over its stiffness at the end of each step, under Coulomb's limit."""

@@ -1,4 +1,4 @@
-"""A close look at the last periods of a march, which are stepped again with modes of contact, forces and energies.
+"""The last periods of a march, which can be looked at closely: stepped again with modes of contact, forces, energies.
 
 A COF that contradicts a theorem (theorems.py) is not called settled.
 """

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -210,45 +210,77 @@ def _turned(values: Any) -> Any:
     return None if values is None else 0.0 - values  # no -0.0
 
 
-def finish(end: MarchEnd) -> SlidingRun:
-    """The run of a march, after a close look at its last periods, in SI."""
-    end, account, record = looked_at(end)
+class Found(NamedTuple):
+    """What a run has found of friction, in SI."""
+
+    cof: float  #: as of SlidingRun, and what follows
+    cof_y: float
+    cof_error: float
+    settled: bool
+    kind: str  #: but for "full slip", of which springs tell
+    why: str
+
+
+def friction_of(end: MarchEnd) -> Found:
+    """The friction of a march. A close look at springs and energies is not taken where these cannot tell against it.
+
+    They can where steps damp what they do not resolve: the oscillation of a body with mass that is stepped as a light
+    one (body.py).
+    """
+    if end.scaled.body.light and end.scaled.body.M:
+        run = finish(end)
+        return Found(*(getattr(run, name) for name in Found._fields))
+    end, account, _ = looked_at(end)
+    return _found(end, account)
+
+
+def _found(end: MarchEnd, account: PeriodRecord) -> Found:
+    """The friction of a march whose last periods were marched."""
     error, why = end.error or 0.0, "" if end.error is not None else "no companion run: cof_error holds settling only"
-    balance = energy_balance(end.stepper, account)
-    open_account = does_not_close(balance, end.stepper, account, error + end.settling.spread)
-    if end.settling.settled and open_account:
-        end = end.unsettled(open_account, contradicts=True)
-    case, scaled, settling = end.case, end.scaled, end.settling
-    full = full_cof(case)
-    if not account.sees_contact:
-        raise too_coarse(scaled.drive.steps)
-    mean_F_z = scaled.normal.mean * (scaled.units.stiffness_z * scaled.units.length_z)
+    case, settling, full = end.case, end.settling, full_cof(end.case)
     error += end.hidden_error + case.cycle.lost_in_digits
     own = settling.spread + EXACT  # error of the mean over a period, whatever the steps miss
     cof, across = beyond(own if settling.settled else 0.0, (settling.mean, settling.across)).tolist()
-    sticks = account.stick_share
-    kind = "full slip" if settling.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE else settling.kind
+    kind = settling.kind
     if settling.settled and may_rest_elsewhere(end, account):
         holds = HOLDS.format("holding_band" if case.pull.is_rigid else "blocked_cof")
         if not (case.pull.is_rigid or case.is_shaken_at_pull):
             holds += ", and holding_band(case) for what it holds under a rigid pull"
         kind, why = "holds", "; ".join(filter(None, (holds, why)))
-    return SlidingRun(
+    return Found(
         cof=full * cof,
         cof_y=full * across,
         cof_error=full * (min(error + own, UNKNOWN) if settling.settled else UNKNOWN),
         settled=settling.settled,
         kind=kind,
         why=why if settling.settled else _why_not(end),
+    )
+
+
+def finish(end: MarchEnd) -> SlidingRun:
+    """The run of a march, after a close look at its last periods, in SI."""
+    end, account, record = looked_at(end)
+    balance = energy_balance(end.stepper, account)
+    open_account = does_not_close(balance, end.stepper, account, (end.error or 0.0) + end.settling.spread)
+    if end.settling.settled and open_account:
+        end = end.unsettled(open_account, contradicts=True)
+    if not account.sees_contact:
+        raise too_coarse(end.scaled.drive.steps)
+    case, scaled, settling, sticks = end.case, end.scaled, end.settling, account.stick_share
+    found, mean_F_z = _found(end, account), scaled.normal.mean * (scaled.units.stiffness_z * scaled.units.length_z)
+    if found.kind != "holds" and found.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE:
+        found = found._replace(kind="full slip")
+    return SlidingRun(
+        **found._asdict(),
         stick_share=sticks,
         least_slip=float(account.seen.sums[LEAST_SLIP]) * scaled.units.speed,
-        mean_F_x=full * cof * mean_F_z,
-        mean_F_y=full * across * mean_F_z,
+        mean_F_x=found.cof * mean_F_z,
+        mean_F_y=found.cof_y * mean_F_z,
         mean_F_z=mean_F_z,
         energy_balance=balance,
         v_0=end.v_0,
         mu_0=case.mu_0,
-        full_cof=full,
+        full_cof=full_cof(case),
         omega=scaled.units.omega,
         n_springs=end.resolution.n_springs,
         steps_per_period=scaled.drive.steps,
