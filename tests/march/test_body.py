@@ -218,7 +218,7 @@ def test_a_step_is_cut_at_a_touch_and_no_rounding_of_that_time_matters(start):
         vars(other)["normal"] = scaled.normal
         _, trace, solved = marched(other, 0.3, 2)
         assert solved
-        motions.append(trace.y)
+        motions.append(trace.u)
     assert flight.any()
     assert_allclose(motions[::2], [motions[1]] * 2, rtol=0, atol=1e-10)
 

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from random_records import case_in_units
 
 import mdr
-from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.body import U
 from mdr.march.dynamics.dimensionless import ScaledContact, fast_ratio
 from mdr.march.dynamics.stepper import Stepper
 
@@ -127,7 +127,7 @@ def test_full_slip_repeats_itself_under_the_march(shape, body, T):
     s, start = scaled.normal.s, scaled.full_slip.state()
     state, trace, solved = marched(scaled, 1e3, 3)
     assert solved
-    e, held, area, y = state.e, state.body, trace.area, trace.y
+    e, held, area, y = state.e, state.body, trace.area, trace.u
     # the rate of a light body takes a rounding of the force 1/h times
     size = np.abs(y).max() + np.abs(start).max()
     assert_allclose(held, start, rtol=0, atol=(1e-11 if scaled.body.light else 1e-15 * STEPS) * size)
@@ -150,7 +150,7 @@ def test_the_resonant_harmonic_is_left_out(multiple):
     # the other harmonics: off the resonance by a little they are the same, and this one is all the difference
     near = scaled_of("paraboloid", 3.0, 0.0, 0.7, multiple * (1 + 1e-6), 0.0)
     y = np.fft.irfft(np.where(np.arange(area.size) == multiple, 0, near.full_slip._motion[0][0]), STEPS)
-    assert_allclose(start[Y], y[0], rtol=1e-4)
+    assert_allclose(start[U], y[0], rtol=1e-4)
 
 
 def test_rest_is_rest():

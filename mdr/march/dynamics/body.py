@@ -1,6 +1,6 @@
 """The body: a linear oscillator between the pull and the springs, over one step under their force.
 
-M y'' + C y' + K y = -F(t), with its motion y relative to the pull. A step gives the area and the moment of F, and the
+M u'' + C u' + K u = -F(t), with its motion u relative to the pull. A step gives the area and the moment of F, and the
 body answers a force that is linear in the step, with this area and moment, exactly. So it has no dispersion of its own,
 and right impulses whatever happens within a step.
 
@@ -23,7 +23,7 @@ from mdr.tools.jit import compiled
 RESOLVED = 16  #: steps per oscillation of the body on the contact, from which on it counts as resolved
 TERMS = 20  #: of a series whose terms are 1/n! at most
 N_BODY = 2
-Y, RATE = range(N_BODY)  #: parts of a state of the body
+U, RATE = range(N_BODY)  #: parts of a state of the body
 
 Pair = tuple[float, float]  # plain numbers: arrays would be counted by reference in every step
 Square = tuple[Pair, Pair]
@@ -39,10 +39,10 @@ class Body(NamedTuple):
     K: float
     h: float
     ringing: float  #: omega_1/omega on springs that stick; infinite without mass, zero under a rigid pull
-    free: Square  #: motion without force, of (y, y')
+    free: Square  #: motion without force, of (u, u')
     area: Pair  #: what the area of the force takes off
     moment: Pair  #: what its moment takes off
-    stuck: Square  #: derivative of what the force takes off by (y, y') at the end, if all springs stick
+    stuck: Square  #: derivative of what the force takes off by (u, u') at the end, if all springs stick
 
     @property
     def pull_time(self) -> float:
@@ -74,7 +74,7 @@ def numbers_of(body: Body) -> list[float]:
 
 @compiled(error_model="numpy")
 def pushed(c, k):  # type: ignore[no-untyped-def]
-    """A body y'' + c y' + k y = 0 after the time 1: its displacement from a velocity of one, the first and the second
+    """A body u'' + c u' + k u = 0 after the time 1: its displacement from a velocity of one, the first and the second
     integral of this over the time, its displacement from a displacement of one and its velocity from a velocity of one.
 
     With decay rates p and q the first three are divided differences of the exponential at -p and -q; with 0; and with 0
@@ -104,7 +104,7 @@ def pushed(c, k):  # type: ignore[no-untyped-def]
 
 
 def _stuck(law: Law, h: float, area: Pair, moment: Pair) -> Square:
-    """Derivative of what the force takes off, if all springs stick: they move by p t + q t², p and q of (y, y')."""
+    """Derivative of what the force takes off, if all springs stick: they move by p t + q t², p and q of (u, u')."""
     T = law.T  # derivatives of the area a and the moment b of the force by p and q
     a_p, a_q, b_p = h**2 / 2 + T * h, h**3 / 3 + T * h**2, h**3 / 3 + T * h**2 / 2
     b_q = h**4 / 4 + 2 * T * h**3 / 3
@@ -113,14 +113,14 @@ def _stuck(law: Law, h: float, area: Pair, moment: Pair) -> Square:
         a_p, a_q = a_p + rho * h**2 * phi[2], a_q + 2 * rho * h**3 * phi[3]
         b_p, b_q = b_p + rho * h**3 * (phi[2] - phi[3]), b_q + 2 * rho * h**4 * (phi[3] - phi[4])
     pairs = [(a * a_p + b * b_p, a * a_q + b * b_q) for a, b in zip(area, moment, strict=True)]
-    first, second = ((float(p / h), float(0.5 * (q / h - p))) for p, q in pairs)  # by y and y' at the end
+    first, second = ((float(p / h), float(0.5 * (q / h - p))) for p, q in pairs)  # by u and u' at the end
     return first, second
 
 
 def harmonics_of(
     body: Body, areas: NDArray[np.complex128], moments: NDArray[np.complex128]
 ) -> tuple[NDArray[np.complex128], NDArray[np.bool_]]:
-    """Periodic motion (2, N) of y and y' at the begin of steps, over harmonics (N,) of areas and moments of the force
+    """Periodic motion (2, N) of u and u' at the begin of steps, over harmonics (N,) of areas and moments of the force
     (as of rfft), and which of them are undamped resonances, where it is zero.
     """
     turn = np.exp(1j * body.h * np.arange(areas.size))
@@ -140,13 +140,13 @@ def light_harmonics_of(
     """
     n, h, (M, C, K) = areas.size, body.h, (body.M, body.C, body.K)
     turn = np.exp(1j * h * np.arange(n))
-    # y' at the end is (y_1 - y_0)/h + q h, of y_0 and the curvature q
-    rate_y, rate_q = (turn - 1) / h, h
+    # u' at the end is (u_1 - u_0)/h + q h, of u_0 and the curvature q
+    rate_u, rate_q = (turn - 1) / h, h
     momentum = M * (1 - 1 / turn)
     matrix = np.empty((n, 2, 2), dtype=complex)
-    matrix[:, 0, 0] = momentum * rate_y + C * (turn - 1) + K * h * (turn + 1) / 2
+    matrix[:, 0, 0] = momentum * rate_u + C * (turn - 1) + K * h * (turn + 1) / 2
     matrix[:, 0, 1] = momentum * rate_q - K * h**3 / 6
-    matrix[:, 1, 0] = C * rate_y + K * turn
+    matrix[:, 1, 0] = C * rate_u + K * turn
     matrix[:, 1, 1] = C * rate_q + 2 * M
-    y, q = np.linalg.solve(matrix, -np.array([areas, ends]).T[:, :, None])[:, :, 0].T
-    return np.array([y, (rate_y * y + rate_q * q) / turn]), np.zeros(n, dtype=bool)
+    u, q = np.linalg.solve(matrix, -np.array([areas, ends]).T[:, :, None])[:, :, 0].T
+    return np.array([u, (rate_u * u + rate_q * q) / turn]), np.zeros(n, dtype=bool)

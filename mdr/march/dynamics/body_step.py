@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.body import RATE, U
 from mdr.march.dynamics.broyden import correct
 from mdr.spring.copies import put
 from mdr.spring.limit import Strength, limit_later
@@ -28,7 +28,7 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 #: share of a step below which a part of it is not followed by itself: a step is cut at a first touch
 SHORTEST_PART = 1e-6
 MOST_ITERATIONS = 32  #: of a step: the slowest solution, of springs on stiff dashpots, gains half a digit in each
-PLAIN = 2  #: iterations of a step in the plane, before the coupling of x and y is updated in the Jacobian
+PLAIN = 2  #: iterations of a step in the plane, before the coupling of the two directions is updated in the Jacobian
 MOST_PLACES = 99  #: in the search for a zero of one unknown
 BALANCED = 1e-11  #: of the forces in a step, that may be missing in their balance; a periodic state may change by more
 
@@ -58,8 +58,8 @@ class Last(NamedTuple):
 class BodyMotion(NamedTuple):
     """The body in one direction over a step."""
 
-    y: float  #: its motion relative to the pull, at the end
-    q: float  #: the second unknown of Newton's method: its rate there, or u = y'' h²/2 of a light body
+    u: float  #: its motion relative to the pull, at the end
+    q: float  #: the second unknown of Newton's method: its rate there, or u'' h²/2 of a light body
     rate: float
     b_1: float  #: it moves by b_1 t + b_2 t²
     b_2: float
@@ -94,10 +94,10 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
     """
     (T, modes, arms), (e_0, s_0, lumped) = law, room
     h, path, limit, z_dot, found = tools.times.h, here.path, here.limit, here.z_dot, False
-    y_0, rate_0, fresh = of_body[Y], of_body[RATE], True
-    ahead, aside = motion_on(y_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
+    u_0, rate_0, fresh = of_body[U], of_body[RATE], True
+    ahead, aside = motion_on(u_0.real, rate_0.real, body, h), BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
     if side is not None:
-        aside = motion_on(y_0.imag, rate_0.imag, side, h)
+        aside = motion_on(u_0.imag, rate_0.imag, side, h)
     area = moment = 0.0 * e[0, 0]
     put(e, e_0)
     put(s, s_0)
@@ -119,66 +119,66 @@ def stepped(e, s, room, of_body, last, body, side, springs, here, slip, flight, 
             if side is None or iteration <= PLAIN:
                 stick = of.stuck, of.stuck_moment, of.sticking
         next_ahead, found = newton_step(
-            ahead, y_0.real, rate_0.real, area.real, moment.real, end.real, stick, here.v, body, law, h
+            ahead, u_0.real, rate_0.real, area.real, moment.real, end.real, stick, here.v, body, law, h
         )
         if side is not None:
             next_aside, other = newton_step(
-                aside, y_0.imag, rate_0.imag, area.imag, moment.imag, end.imag, stick, here.v, side, law, h
+                aside, u_0.imag, rate_0.imag, area.imag, moment.imag, end.imag, stick, here.v, side, law, h
             )
             found = found and other
             if iteration >= PLAIN and not found:
                 next_ahead, next_aside = together(
-                    ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, lumped, iteration == PLAIN, h
+                    ahead, aside, next_ahead, next_aside, u_0, rate_0, body, side, lumped, iteration == PLAIN, h
                 )
             aside = next_aside
         ahead = next_ahead
         if found and not fresh:
             break
-    of_body[Y], of_body[RATE] = ahead.y, ahead.rate
+    of_body[U], of_body[RATE] = ahead.u, ahead.rate
     if side is not None:
-        of_body[Y], of_body[RATE] = complex(ahead.y, aside.y), complex(ahead.rate, aside.rate)
+        of_body[U], of_body[RATE] = complex(ahead.u, aside.u), complex(ahead.rate, aside.rate)
     return path, area, moment, last, found
 
 
 @_lent
-def together(ahead, aside, next_ahead, next_aside, y_0, rate_0, body, side, past, begins, h):
+def together(ahead, aside, next_ahead, next_aside, u_0, rate_0, body, side, past, begins, h):
     """The motion of a body in both directions nearer to where the forces take it. ahead, aside: the motion now; next_:
-    what Newton's method makes of each direction for itself. Broyden's method updates the coupling of x and y in
+    what Newton's method makes of each direction for itself. Broyden's method updates the coupling of both in
     the Jacobian.
 
     past, begins: of `correct`.
     """
     unit, unit_aside = 1.0 if body.light else h, 1.0 if side.light else h
     left = (
-        ahead.y - next_ahead.y,
+        ahead.u - next_ahead.u,
         (ahead.q - next_ahead.q) * unit,
-        aside.y - next_aside.y,
+        aside.u - next_aside.u,
         (aside.q - next_aside.q) * unit_aside,
     )
     correct(past, left, begins)
     change = past[4]
     return (
-        motion_to(ahead.y + change[0], ahead.q + change[1] / unit, y_0.real, rate_0.real, body, h),
-        motion_to(aside.y + change[2], aside.q + change[3] / unit_aside, y_0.imag, rate_0.imag, side, h),
+        motion_to(ahead.u + change[0], ahead.q + change[1] / unit, u_0.real, rate_0.real, body, h),
+        motion_to(aside.u + change[2], aside.q + change[3] / unit_aside, u_0.imag, rate_0.imag, side, h),
     )
 
 
 @_inline
-def motion_on(y_0, rate_0, body, h):
+def motion_on(u_0, rate_0, body, h):
     """Motion of a body that keeps its velocity: the first guess."""
-    return motion_to(y_0 + h * rate_0, 0.0 if body.light else rate_0, y_0, rate_0, body, h)
+    return motion_to(u_0 + h * rate_0, 0.0 if body.light else rate_0, u_0, rate_0, body, h)
 
 
 @_inline
-def motion_to(y, q, y_0, rate_0, body, h):
-    """Motion of a body from y_0 to y."""
-    dy = y - y_0
+def motion_to(u, q, u_0, rate_0, body, h):
+    """Motion of a body from u_0 to u."""
+    du = u - u_0
     b_2, rate = (q - rate_0) / (2.0 * h), q
     if body.light:
-        b_2, rate = q / (h * h), (dy + q) / h
+        b_2, rate = q / (h * h), (du + q) / h
     if body.rigid:
         return BodyMotion(0.0, 0.0, 0.0, 0.0, 0.0)
-    return BodyMotion(y, q, rate, dy / h - b_2 * h, b_2)
+    return BodyMotion(u, q, rate, du / h - b_2 * h, b_2)
 
 
 @_inline
@@ -191,40 +191,40 @@ def moved(path, ahead, aside, side):
 
 
 @_inline
-def newton_step(one, y_0, rate_0, area, moment, end, stick, v, body, law, h):
+def newton_step(one, u_0, rate_0, area, moment, end, stick, v, body, law, h):
     """A body nearer to where these forces take it, and whether it was there."""
     stuck, stuck_moment, sticking = stick
     if body.rigid:
         return one, True
     if body.light:
-        impulse, force, close = residual_light(one.y, one.q, one.rate, y_0, rate_0, area, end, body, law, h)
-        dy, dq = newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h)
+        impulse, force, close = residual_light(one.u, one.q, one.rate, u_0, rate_0, area, end, body, law, h)
+        du, dq = newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h)
         is_close = abs(impulse) + abs(force) <= close
     else:
-        off, off_rate, is_close = residual_heavy(one.y, one.q, y_0, rate_0, area, moment, v, body, h)
-        dy, dq = newton_heavy(off, off_rate, stuck / h, body)
+        off, off_rate, is_close = residual_heavy(one.u, one.q, u_0, rate_0, area, moment, v, body, h)
+        du, dq = newton_heavy(off, off_rate, stuck / h, body)
     if is_close:
         return one, True
-    return motion_to(one.y - dy, one.q - dq, y_0, rate_0, body, h), False
+    return motion_to(one.u - du, one.q - dq, u_0, rate_0, body, h), False
 
 
 @_inline
-def residual_heavy(y, rate, y_0, rate_0, area, moment, v, body, h):
-    """Residual of a body with mass: its distance, in y and rate, from where area and moment of the force take it; and
+def residual_heavy(u, rate, u_0, rate_0, area, moment, v, body, h):
+    """Residual of a body with mass: its distance, in u and rate, from where area and moment of the force take it; and
     whether that is nothing.
     """
     free = body.free
     push = body.area[0] * area + body.moment[0] * moment
     push_rate = body.area[1] * area + body.moment[1] * moment
-    off = y - (free[0][0] * y_0 + free[0][1] * rate_0) + push
-    off_rate = rate - (free[1][0] * y_0 + free[1][1] * rate_0) + push_rate
-    least = ROUNDING * (abs(y) + h * (abs(rate) + abs(v)))
+    off = u - (free[0][0] * u_0 + free[0][1] * rate_0) + push
+    off_rate = rate - (free[1][0] * u_0 + free[1][1] * rate_0) + push_rate
+    least = ROUNDING * (abs(u) + h * (abs(rate) + abs(v)))
     return off, off_rate, abs(off) + h * abs(off_rate) <= BALANCED * (abs(push) + h * abs(push_rate)) + least
 
 
 @_inline
 def newton_heavy(off, off_rate, share, body):
-    """Newton correction of a body with mass, to be taken from y and rate, by the stiffness of what sticks."""
+    """Newton correction of a body with mass, to be taken from u and rate, by the stiffness of what sticks."""
     a, b = 1.0 + share * body.stuck[0][0], share * body.stuck[0][1]
     c, d = share * body.stuck[1][0], 1.0 + share * body.stuck[1][1]
     det = a * d - b * c
@@ -260,20 +260,20 @@ def follow(e, s, room, of_body, last, body, springs, here, slip, flight, flown, 
 
 
 @_inline
-def residual_light(y, q, rate, y_0, rate_0, area, end, body, law, h):
-    """Residual of a light body that moves to y with q: impulse (over h) and force that are left, under the area of a
+def residual_light(u, q, rate, u_0, rate_0, area, end, body, law, h):
+    """Residual of a light body that moves to u with q: impulse (over h) and force that are left, under the area of a
     force and the force at the end; and how little of them counts as none.
     """
     M, C, K = body.M, body.C, body.K
-    impulse = M * (rate - rate_0) / h + C * (y - y_0) / h + K * (0.5 * (y_0 + y) - q / 6.0) + area / h
-    force = 2.0 * M * q / (h * h) + C * rate + K * y + end
-    size, slope = abs(K * y) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
-    return impulse, force, BALANCED * (size + slope * (abs(y - y_0) + abs(q))) + ROUNDING * slope * abs(y)
+    impulse = M * (rate - rate_0) / h + C * (u - u_0) / h + K * (0.5 * (u_0 + u) - q / 6.0) + area / h
+    force = 2.0 * M * q / (h * h) + C * rate + K * u + end
+    size, slope = abs(K * u) + abs(end) + h, steepest(body, law, h)  # a spring that is pressed gains some h in a step
+    return impulse, force, BALANCED * (size + slope * (abs(u - u_0) + abs(q))) + ROUNDING * slope * abs(u)
 
 
 @_inline
 def newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h):
-    """Newton correction of a light body, to be taken from y and q, by the stiffness of what sticks."""
+    """Newton correction of a light body, to be taken from u and q, by the stiffness of what sticks."""
     M, C, K, T, stiff, share = body.M, body.C, body.K, law.T, glassy(law.arms), stuck / h
     a = M / (h * h) + C / h + 0.5 * (K + share * stiff) + T * share / h
     b = M / (h * h) - (K + share * stiff) / 6.0 + T * (2.0 * stuck_moment / h - stuck) / (h * h)
@@ -283,17 +283,17 @@ def newton_light(impulse, force, stuck, stuck_moment, sticking, body, law, h):
 
 
 @_lent
-def residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools):
-    """Residual of a light body that moves to y with q, for its springs are stepped with it: e, s are updated. Also its
+def residual_at(u, q, e, s, room, of_body, body, springs, here, law, tools):
+    """Residual of a light body that moves to u with q, for its springs are stepped with it: e, s are updated. Also its
     motion.
     """
     (T, modes, arms), (e_0, s_0, lumped) = law, room
     put(e_0, e)
     put(s_0, s)
-    one = motion_to(y, q, of_body[Y], of_body[RATE], body, tools.times.h)
+    one = motion_to(u, q, of_body[U], of_body[RATE], body, tools.times.h)
     path, rate = moved(here.path, one, one, None)
     of = row(s, e, springs, here.limit, path, here.z_dot, here.x_dot + rate, T, modes, arms, tools, lumped, None, None)
-    left = residual_light(y, q, rate, of_body[Y], of_body[RATE], of.area, of.end, body, law, tools.times.h)
+    left = residual_light(u, q, rate, of_body[U], of_body[RATE], of.area, of.end, body, law, tools.times.h)
     return left, one
 
 
@@ -305,18 +305,18 @@ def steepest(body, law, h):
 
 @_inner
 def enclosed(e, s, room, of_body, body, springs, here, law, tools):
-    """The step of a light body by two searches, one within the other: the force at the end rises with y, and
+    """The step of a light body by two searches, one within the other: the force at the end rises with u, and
     where it is zero, the impulse falls as q grows.
     """
-    y, q, slope = of_body[Y], 0.0, steepest(body, law, tools.times.h)
-    ends_y, ends_q = np.empty(4), np.full(4, np.nan)
+    u, q, slope = of_body[U], 0.0, steepest(body, law, tools.times.h)
+    ends_u, ends_q = np.empty(4), np.full(4, np.nan)
     for _ in range(MOST_PLACES):
-        ends_y[:] = np.nan
+        ends_u[:] = np.nan
         for _ in range(MOST_PLACES):
-            (impulse, force, close), one = residual_at(y, q, e, s, room, of_body, body, springs, here, law, tools)
+            (impulse, force, close), one = residual_at(u, q, e, s, room, of_body, body, springs, here, law, tools)
             if abs(force) <= 0.1 * close:
                 break
-            y = next_place(y, force, slope, ends_y)
+            u = next_place(u, force, slope, ends_u)
         if abs(impulse) <= 0.9 * close:
             break
         q = next_place(q, -impulse, slope, ends_q)

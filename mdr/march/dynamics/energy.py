@@ -73,7 +73,7 @@ def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
     unit_x, unit_z = scaled.units.energy_x, scaled.units.energy_z
     shake, damper = float(sums[SHAKE_WORK]), 0.0
     pull = float(sums[SHEAR_WORK]) - shake
-    both = stepper.directions(account.y, account.rate)
+    both = stepper.directions(account.u, account.rate)
     at_pull = any(axis.far_end.any() for _, axis, _, _ in both)
     shake = 0.0 if at_pull else shake
     for body, axis, v, (stretch, rate) in both:

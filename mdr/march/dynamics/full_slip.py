@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.march.dynamics.body import N_BODY, RATE, Body, Y, harmonics_of, light_harmonics_of
+from mdr.march.dynamics.body import N_BODY, RATE, Body, U, harmonics_of, light_harmonics_of
 from mdr.march.dynamics.limit import Limit
 from mdr.tools.arrays import Array
 
@@ -54,7 +54,7 @@ class FullSlip:
         motion = motion.copy()
         motion[:, n] = 0
         state, phase = self._at_begin(motion), np.angle(F_n)
-        state[Y] += abs(F_n) / self.body.K - v / n * np.sin(phase)  # and the mean force it takes away
+        state[U] += abs(F_n) / self.body.K - v / n * np.sin(phase)  # and the mean force it takes away
         state[RATE] -= v * np.cos(phase)
         return state
 

@@ -175,10 +175,10 @@ def trace_of(flat, n_steps, plane):
     numbers = as_numbers(flat, plane)
     area, at = taken(numbers, 0, n_steps)
     moment, at = taken(numbers, at, n_steps)
-    y, at = taken(numbers, at, n_steps)
+    u, at = taken(numbers, at, n_steps)
     rate, at = taken(numbers, at, n_steps)
     parts, at = taken(numbers, at, 6 * n_steps)
-    return Trace(area, moment, y, rate, parts.reshape((n_steps, 2, 3)))
+    return Trace(area, moment, u, rate, parts.reshape((n_steps, 2, 3)))
 
 
 def __getattr__(name: str) -> Any:

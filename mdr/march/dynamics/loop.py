@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.body import RATE, U
 from mdr.march.dynamics.body_step import Here, Last, follow, later, note, stepped
 from mdr.march.dynamics.broyden import ROOM
 from mdr.spring.contact import Look
@@ -59,7 +59,7 @@ class Trace(NamedTuple):
 
     area: Array  #: (n_steps,) of the tangential force
     moment: Array  #: (n_steps,) of it
-    y: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
+    u: Array  #: (n_steps,) motion of the body relative to the pull, at the end of the step
     rate: Array  #: (n_steps,) its rate there
     #: (n_steps, 2, 3) length, x_1, x_2 of the top in two parts; if the first has no length, no more is set
     parts: Array
@@ -119,7 +119,7 @@ def march(e, s, of_body, body, side, springs, limits, slip, flight, motion, law,
             )
             note(trace, j, 1, h, path)
         solved = solved and found
-        trace.area[j], trace.moment[j], trace.y[j], trace.rate[j] = area, moment, of_body[Y], of_body[RATE]
+        trace.area[j], trace.moment[j], trace.u[j], trace.rate[j] = area, moment, of_body[U], of_body[RATE]
     return solved
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mdr.march.dynamics import loop
-from mdr.march.dynamics.body import N_BODY, RATE, Body, Y
+from mdr.march.dynamics.body import N_BODY, RATE, Body, U
 from mdr.march.dynamics.dimensionless import AxisMotion, ScaledContact
 from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
@@ -43,7 +43,7 @@ class PeriodRecord:
     """A period that can be looked at closely, in scaled form."""
 
     look: Callable[[], loop.Seen]  #: steps it again
-    y: Array  #: (n_steps + 1,) the body at the start of the period and at the end of every step: complex in the plane
+    u: Array  #: (n_steps + 1,) the body at the start of the period and at the end of every step: complex in the plane
     rate: Array  #: (n_steps + 1,) its velocity there
     stored: tuple[float, float]  #: energy at both ends, in the unit of the tangential springs
     period: Periods  #: its COF and swing
@@ -139,7 +139,7 @@ class Stepper:
         pull = 2 * np.pi * self.v
         if pull <= self.scaled.hidden_pull:
             return UNKNOWN if pull else 0.0
-        went = (after.e[0] - before.e[0] - (after.body[Y] - before.body[Y])).real
+        went = (after.e[0] - before.e[0] - (after.body[U] - before.body[U])).real
         late = np.abs(went) > WITH_IT * n_periods * pull
         return 2 * float(self.scaled.greatest_force @ late) / self.mean_limit
 
@@ -166,9 +166,9 @@ class Stepper:
 
     def periods_of(self, trace: loop.Trace) -> Periods:
         """COFs and swing of each whole period."""
-        area, y = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.y))
+        area, u = (one.reshape(-1, self.scaled.drive.steps) for one in (trace.area, trace.u))
         cof = area.sum(axis=1) / (2 * np.pi * self.mean_limit)
-        return Periods(cof.real, np.maximum(np.ptp(y.real, axis=1), np.ptp(y.imag, axis=1)), cof.imag)
+        return Periods(cof.real, np.maximum(np.ptp(u.real, axis=1), np.ptp(u.imag, axis=1)), cof.imag)
 
     def cof_of(self, trace: loop.Trace) -> tuple[float, float]:
         """Mean force along the pull and across it, of a period, over that of full slip: COFs over mu_0."""
@@ -201,9 +201,9 @@ class Stepper:
         start, last = before.body, self._marched(state, 1)
         trace = loop.Trace(*(one.copy() for one in last))
         stored = self.stored_energy(before), self.stored_energy(state)
-        y, rate = (np.append(start[at], one) for at, one in ((Y, trace.y), (RATE, trace.rate)))
+        u, rate = (np.append(start[at], one) for at, one in ((U, trace.u), (RATE, trace.rate)))
         look = partial(self._look, before.copy(), trace, keep)
-        return state, PeriodRecord(look, y, rate, stored, self.periods_of(trace), self.solved)
+        return state, PeriodRecord(look, u, rate, stored, self.periods_of(trace), self.solved)
 
     def _look(self, passed: MarchState, trace: loop.Trace, keep: bool) -> loop.Seen:
         """A close look at a period from a state on, which is changed."""
@@ -246,8 +246,8 @@ class Stepper:
     def stored_energy(self, state: MarchState) -> float:
         """Elastic and kinetic energy of springs, body and system spring, in the unit of the tangential springs."""
         scaled, system = self.scaled, 0.0
-        for body, axis, pull, (y, u_dot) in self.directions(state.body[Y], state.body[RATE]):
-            stretch, velocity = float(y), float(u_dot) + pull
+        for body, axis, pull, (u, u_dot) in self.directions(state.body[U], state.body[RATE]):
+            stretch, velocity = float(u), float(u_dot) + pull
             if axis.far_end.any():  # the body moves with the shake too, and stretches its spring by less
                 velocity, stretch = velocity + float(axis.x_dot[0]), stretch + float(axis.x[0] - axis.far_end[0])
             system += 0.0 if body.rigid else 0.5 * body.K * stretch**2 + 0.5 * body.M * velocity**2
@@ -256,11 +256,11 @@ class Stepper:
         normal = 0.5 * float(ratios @ (state.s**2 @ scaled.springs.w))
         return springs + normal * scaled.units.energy_z / scaled.units.energy_x + system
 
-    def directions(self, y: Array, rate: Array) -> list[tuple[Body, AxisMotion, float, tuple[Array, Array]]]:
+    def directions(self, u: Array, rate: Array) -> list[tuple[Body, AxisMotion, float, tuple[Array, Array]]]:
         """Body, shake, velocity of the pull, and motion and rate of the body, along the pull and across it."""
         scaled, aside = self.scaled, self.scaled.drive.across
-        along = scaled.body, scaled.drive.along, self.v, (y.real, rate.real)
-        return [along] if aside is None else [along, (scaled.body_across, aside, 0.0, (y.imag, rate.imag))]
+        along = scaled.body, scaled.drive.along, self.v, (u.real, rate.real)
+        return [along] if aside is None else [along, (scaled.body_across, aside, 0.0, (u.imag, rate.imag))]
 
 
 def least_between(values: Array) -> float:

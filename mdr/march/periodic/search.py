@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.march.dynamics.body import RATE, Y
+from mdr.march.dynamics.body import RATE, U
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import MarchState, on_other_springs
 from mdr.march.dynamics.stepper import AT_ONCE, Stepper
@@ -115,7 +115,7 @@ def _energy_of(scaled: ScaledContact) -> tuple[Array, tuple[Any, ...]]:
     n, body = of_springs.shape[1], n_axes * of_springs.size  # springs, and where the numbers of the body begin
     places: list[Any] = []
     for axis, one in enumerate(bodies):
-        places += [body + n_axes * part + axis for part in ((Y, RATE) if one.M else () if one.rigid else (Y,))]
+        places += [body + n_axes * part + axis for part in ((U, RATE) if one.M else () if one.rigid else (U,))]
     parts = [1 + j for j, theta in enumerate(rheology.theta) if theta > FORGOTTEN]
     parts = parts if parts or places else [0]
     places += [slice(n_axes * j * n + axis, n_axes * (j + 1) * n, n_axes) for axis in range(n_axes) for j in parts]

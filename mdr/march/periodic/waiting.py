@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.body import U
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import TOLERANCE, Periods, Stepper, joined
@@ -205,7 +205,7 @@ class Waiting:
             return 0.0
         late, early = smooth_mean(swings[n // 2 :]), smooth_mean(swings[n // 4 : n // 2])
         # a swing that is rounding of the position does not count
-        return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.state.body[Y]) else 0.0
+        return (late - early) / (late * (3 * n / 8) + 1e-300) if late > 1e-9 * abs(self.state.body[U]) else 0.0
 
 
 def pre_sliding(scaled: ScaledContact, v: float) -> float:

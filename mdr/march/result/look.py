@@ -60,7 +60,7 @@ def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:
     scaled = end.scaled
     if end.v_0 != 0:
         return False
-    top, z = account.y[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:]
+    top, z = account.u[1:] + end.stepper.motion.x[1:], scaled.drive.z[1:]
     forces = np.fft.rfft([z, top.real, top.imag]) * scaled.rheology.response(np.arange(scaled.drive.steps // 2 + 1))
     press, along, across = np.fft.irfft(forces, scaled.drive.steps)
     # of a foot so at rest that the force goes about zero

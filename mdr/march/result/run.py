@@ -360,4 +360,4 @@ def _arrays(record: PeriodRecord) -> tuple[Array | NDArray[np.uint8], ...]:
     seen = record.seen
     forces = seen.F[:, 0], seen.F[:, 1], seen.F[:, 3]
     springs = seen.e, seen.s, seen.f, seen.f_z
-    return *forces, record.y[1:], *springs, seen.mode.astype(np.uint8)
+    return *forces, record.u[1:], *springs, seen.mode.astype(np.uint8)
