@@ -41,7 +41,7 @@ from numpy.typing import NDArray
 
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
-from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.body import U
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.search import search_from_full_slip
@@ -108,7 +108,7 @@ def scatter(march: Waiting, rng: np.random.Generator) -> None:
     """Stretch every spring at random within its cone of friction, and push the body by some units both ways."""
     e, s, body = march.state.e, march.state.s, march.state.body
     e[0] = rng.uniform(-1, 1, e[0].size) * s[0]
-    body[:] = body[Y] + rng.normal(), march.stepper.v * rng.normal()
+    body[:] = body[U] + rng.normal(), march.stepper.v * rng.normal()
 
 
 def distance(one: Waiting, two: Waiting) -> float:
@@ -128,7 +128,7 @@ def swinging() -> Array:
     """The same for an undamped body in full slip and one that swings a little besides, so that neither sticks."""
     system, rng = System("r^4", 0.5, 0.0, 1.3, 1.5, 0.0, 1.5), np.random.default_rng(0)
     one, two = (system.march("full slip", rng) for _ in range(2))
-    two.state.body[Y] += 0.1
+    two.state.body[U] += 0.1
     return _followed(one, two)
 
 

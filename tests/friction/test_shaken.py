@@ -12,7 +12,7 @@ import mdr
 from mdr.friction import shaken
 from mdr.friction.cof_curve import friction_without_bound
 from mdr.friction.shaken import band_of_pull
-from mdr.march.dynamics.body import Y
+from mdr.march.dynamics.body import U
 from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.stepper import Stepper
 
@@ -177,9 +177,9 @@ def creeping(case, load, e_share, n_periods):
     state.body[:] = start, 0.0
     stepper.within_friction(state)
     state, _ = stepper.advance(state, 5 * n_periods)  # until it rests, but for a swing within the period
-    before = state.body[Y]
+    before = state.body[U]
     state, _ = stepper.advance(state, n_periods)
-    return (state.body[Y] - before) / (2 * np.pi * n_periods) / np.abs(scaled.drive.along.x_dot).max()
+    return (state.body[U] - before) / (2 * np.pi * n_periods) / np.abs(scaled.drive.along.x_dot).max()
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def start(small, tmp_path, script, **environment):
     folder = tmp_path / "house"
     if not folder.exists():
         shutil.copytree(small, folder)
-    env = {**os.environ, "PYTHONPATH": str(folder), "MDR_COMPILE": "beside", **environment}
+    env = {**os.environ, "PYTHONPATH": str(folder), "MDR_COMPILE": "beside", "TMPDIR": str(folder), **environment}
     env.pop("NUMBA_CACHE_DIR", None)
     script = "import numpy as np, sys, os, time\nfrom mdr.parts import *\nfrom mdr.tools import beside\n" + script
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
@@ -164,9 +164,11 @@ class Slow:
     @property
     def py_func(self): time.sleep(0.3)
 parts.slow = Slow()
-threads = [Thread(target=lambda: print(total(Pair(np.zeros(1), 0.5), 3))) for _ in range(3)]
+found = []
+threads = [Thread(target=lambda: found.append(total(Pair(np.zeros(1), 0.5), 3))) for _ in range(3)]
 for one in threads: one.start()
 for one in threads: one.join()
+print(*found)
 """
     out, told = said(small, tmp_path, script)
     assert out == ["3.0"] * 3, told
