@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from types import CellType, FunctionType
 from typing import Any
@@ -109,8 +110,9 @@ def _copies(value: Any) -> Any:
 
 def _put_back(value: Any, kept: Any) -> None:
     """Give arrays in arguments what they held."""
-    if isinstance(value, np.ndarray) and value.flags.writeable:
-        value[...] = kept
+    if isinstance(value, np.ndarray):
+        with suppress(ValueError):  # it is read-only
+            value[...] = kept
     elif isinstance(value, tuple):
         for one, of in zip(value, kept, strict=True):
             _put_back(one, of)

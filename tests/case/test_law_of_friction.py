@@ -86,7 +86,11 @@ def test_a_copy_takes_numbers_or_a_law(case):
     ("given", "error", "words"),
     [
         ({}, TypeError, r"friction is missing: give mu_0, or a law such as friction=mdr.Coulomb\(mu_0\)"),
-        ({"mu_0": 0.5, "friction": COULOMB}, ValueError, "mu_0 and friction say the same: give mu_0, or the law Coul"),
+        (
+            {"mu_0": 0.5, "friction": COULOMB},
+            ValueError,
+            "mu_0 and friction say the same: give mu_0, or the law Coulomb",
+        ),
         ({"tau_0": 1.0, "friction": STRONG}, ValueError, "tau_0 and friction say the same"),
         ({"friction": mdr.Coulomb}, TypeError, r"friction must be of kind Friction, .*; write Coulomb\(...\)"),
         ({"friction": 0.5}, TypeError, "friction must be of kind Friction, got 0.5"),
