@@ -22,6 +22,7 @@ from validation.page.made import Made
 from validation.report import text_table
 from validation.written import other_verdicts
 
+os.environ.setdefault("MDR_COMPILE", "first")  # as claims make many runs, on all cores
 #: begun first, so that none is alone at the end
 LONGEST = ("generalisation", "shear_strength", "coupled", "end_of_stick", "judge", "transverse_slip", "resonances")
 

@@ -2,7 +2,7 @@
 
 It runs as Python at once, while another process compiles, and by machine code as soon as that is on disk. Where no
 other process can (one core, a disk that takes nothing, a process that was killed) this one compiles, once its functions
-have run as Python for some seconds.
+have run as Python for some seconds; and where the other is late, as on a busy machine.
 """
 
 # mypy: disallow-untyped-calls=false
@@ -18,6 +18,7 @@ from mdr.tools.compiling import TALLY
 from mdr.tools.plain import Left, called, is_outermost
 
 ALONE = 2.5  #: s that functions run as Python where no other process compiles, before this one does
+LATE = 25.0  #: s where one does, but is late, as on a busy machine, where it has the lower priority
 
 
 def code_for(function: Any, *args: Any) -> Any:
@@ -40,7 +41,7 @@ def is_due(codes: list[Code], since: float = float("inf")) -> bool:
         return True
     BESIDE.ask(codes)
     waited = TALLY.in_python + max(0.0, time.monotonic() - since)
-    return waited > ALONE and not BESIDE.is_alive()
+    return waited > (LATE if BESIDE.is_alive() else ALONE)
 
 
 def _in_python(function: Any, codes: list[Code], by_machine: Any, *args: Any) -> Any:

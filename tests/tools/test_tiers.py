@@ -121,9 +121,18 @@ def test_first_and_never(small, tmp_path):
     assert "MDR_COMPILE must be one of beside, first, never, got 'later'" in process.communicate()[1]
 
 
+#: another process that lives and brings nothing
+LATE = """
+open("late", "w").write("#!/bin/sh\\ncat\\n")
+os.chmod("late", 0o755)
+beside.sys.executable, tiers.LATE = os.path.abspath("late"), 0.3
+"""
+
+
 @pytest.mark.parametrize(
     "why",
     [
+        LATE,
         "beside.cores = lambda: 1\n",  # no core for another process
         "beside.sys.executable = '/nowhere'\n",
         "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))\n",  # a full disk
