@@ -68,7 +68,7 @@ COMMANDS = {
         "sweep:sweep", "a grid of cases, from a study file; the same call goes on after any end",
         "mdr.studies.study_files:read_study_file"),
     "explore": Command("explore:explore", "a page in the browser to try a case with sliders"),
-    "shapes": Command("begin:shapes", "the shapes, materials and motions that a file can name, and their keys"),
+    "shapes": Command("begin:shapes", "what a file can name, such as shapes, and its keys"),
     "case": Command("begin:case", "a commented case file to begin with"),
     "warm": Command("warm:warm", "compile all that runs without tau_0 need, once on this machine"),
     "completion": Command("completion:completion", "a script that completes commands and options in the shell"),

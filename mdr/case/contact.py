@@ -17,14 +17,15 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.friction import Friction, law_of
+from mdr.case.friction import UNNAMED, Friction, law_of
 from mdr.case.in_plane import Shake, sign_of
 from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull
 from mdr.case.scales import Scales
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material, answers, refuse_other_materials
-from mdr.tools.checks import instance
+from mdr.tools.arrays import SAME
+from mdr.tools.checks import instance, not_negative
 from mdr.tools.fields import Record, check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
@@ -39,6 +40,7 @@ KINDS: dict[str, type[Any]] = {
     "shake": Shake,
 }
 OPTIONAL = ("shake",)  #: parts that may be None
+SAMPLES = 33  #: radii of contact of which a law of friction is asked
 
 
 @dataclass(frozen=True)
@@ -110,11 +112,8 @@ class SlidingContact(Scales, Record, Summarised):
                     "mean depth or its amplitude"
                 )
             a = float(self.indenter.contact_radius(self.u_z_max))  # a shape that does not reach so deep says so here
-            if self.friction.needs_area and not 0 <= self.friction.strong_radius(a) <= a:
-                raise ValueError(
-                    f"friction = {self.friction!r} answers strong_radius(a) = {self.friction.strong_radius(a)!r} m of "
-                    f"a contact of the radius a = {a:.6g} m: a strength acts within it, from 0 to a"
-                )
+            if self.friction.needs_area:
+                self._refuse_other_radii(a)
             if self.indenter.least_depth > 0:
                 self._refuse_incomplete()
 
@@ -124,13 +123,36 @@ class SlidingContact(Scales, Record, Summarised):
         answers("friction", law, "mu_0", "the share of the normal force that it bears in slip [-]")
         answers("friction", law, "tau_0", "its shear strength [Pa], 0.0 for none")
         law = law.simplest
-        if not (0 <= law.mu_0 < np.inf and 0 <= law.tau_0 < np.inf and law.mu_0 + law.tau_0 > 0):
+        mu_0, tau_0 = (not_negative(f"{one} of {type(law).__name__}", getattr(law, one)) for one in ("mu_0", "tau_0"))
+        if not mu_0 + tau_0 > 0 or (law.is_coulomb and tau_0 > 0):
             raise ValueError(
-                f"friction = {law!r} answers mu_0 = {law.mu_0!r}, tau_0 = {law.tau_0!r} Pa: both must be finite, not "
-                "negative, and one of them above 0"
+                f"friction = {law!r} answers mu_0 = {mu_0!r}, tau_0 = {tau_0!r} Pa, is_coulomb = {law.is_coulomb!r}: "
+                "one of the numbers must be above 0, and Coulomb's friction has no strength"
             )
-        for name, value in (("friction", law), ("_law", law), ("mu_0", law.mu_0), ("tau_0", law.tau_0)):
+        for name, value in (("friction", law), ("_law", law), ("mu_0", mu_0), ("tau_0", tau_0)):
             object.__setattr__(self, name, value)
+
+    def _refuse_other_radii(self, greatest: float) -> None:
+        """A law of a user's own may answer no radius in the contact, or one of a single contact alone."""
+        law, a = self.friction, np.linspace(0.0, greatest, SAMPLES)
+        try:
+            radius, kinks = np.asarray(law.strong_radius(a), dtype=float), np.array([*law.kinks], dtype=float)
+        except (TypeError, ValueError) as fault:
+            raise TypeError(
+                f"friction = {law!r} must answer strong_radius(a) of an array a, such as np.minimum(a, b) where min(a, "
+                f"b) is meant, and a tuple of kinks: {fault}"
+            ) from fault
+        miss = SAME * greatest
+        if radius.shape != a.shape or not (
+            radius[-1] > 0 and np.all((radius >= 0) & (radius <= a + miss)) and np.all(np.diff(radius) >= -miss)
+        ):
+            raise ValueError(
+                f"friction = {law!r} answers strong_radius(a) = {short(repr(radius.tolist()))} m of contacts of the "
+                f"radii a = {short(repr(a.tolist()))} m: a strength acts within each, from 0 to a, on no less of a "
+                "larger one, and not nowhere; set tau_0 = 0 where there is none"
+            )
+        if not np.all(kinks >= 0):
+            raise ValueError(f"friction = {law!r} answers kinks = {law.kinks!r}: they must be radii of contact [m]")
 
     def _summary(self) -> Summary:
         parts = [(name, getattr(self, name)) for name in KINDS]
@@ -197,9 +219,12 @@ SlidingContact.__signature__ = signature(SlidingContact).replace(  # type: ignor
 
 
 def _told(name: str, part: Any) -> list[Row]:
-    """A part of a case in a row: its kind, and its numbers with their units; a law of friction by its own rows."""
-    if isinstance(part, Friction):
-        return part.told
+    """A part of a case in a row: its kind, and its numbers with their units; a row each of those that are a law."""
+    if isinstance(part, UNNAMED):
+        return [
+            (one.name, number(getattr(part, one.name), facts_of(one).unit), facts_of(one).meaning)
+            for one in fields(part)
+        ]
     part = getattr(part, "load", None) or part  # of a depth that was solved for, what it was solved from
     if not is_dataclass(part):
         return [(name, type(part).__name__, short(repr(part)))]

@@ -13,7 +13,7 @@ Symbols: mu_0 [-], tau_0 [Pa], a radius of contact [m].
 from __future__ import annotations
 
 from abc import ABC
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,8 +21,7 @@ from numpy.typing import ArrayLike
 
 from mdr.tools.arrays import Array
 from mdr.tools.checks import not_negative, positive
-from mdr.tools.fields import Record, facts, facts_of, fields_of
-from mdr.tools.summary import Row, number
+from mdr.tools.fields import Record, facts, fields_of
 
 __all__ = ["Coulomb", "Friction", "ShearStrength"]
 
@@ -72,7 +71,7 @@ class Friction(Record, ABC):
         Returns
         -------
         ndarray
-            The radius [m] in the shape of a: here the whole contact.
+            The radius [m] in the shape of a, from 0 to a, no smaller of a larger contact: here the whole contact.
         """
         return np.asarray(a, dtype=float)
 
@@ -134,13 +133,6 @@ class Friction(Record, ABC):
         """The law, or a simpler one that is the same."""
         return self
 
-    @property
-    def told(self) -> list[Row]:
-        """Rows of a summary: the law, and a number each, with its unit and meaning."""
-        given = [(one, getattr(self, one.name)) for one in fields(self) if one.init]  # type: ignore[arg-type]
-        rows = [(one.name, number(value, facts_of(one).unit), facts_of(one).meaning) for one, value in given]
-        return [("friction", type(self).__name__, "law of friction"), *rows]
-
 
 class _OfNumbers(Friction):
     """A law that is made of mu_0 and tau_0 alone, and changes its kind with them."""
@@ -163,11 +155,6 @@ class _OfNumbers(Friction):
     def varied(self, **changes: Any) -> Friction:
         """The law of these numbers."""
         return of_numbers(**{"mu_0": self.mu_0, "tau_0": self.tau_0, **changes})
-
-    @property
-    def told(self) -> list[Row]:
-        """The numbers alone."""
-        return super().told[1:]
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ def export(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
     if path.suffix not in (".h", ".fmu"):
         raise WrongInput(f"-o {path}: the file must end in .h, a C header, or .fmu, a unit for co-simulation")
     name = path.stem
-    Domain((COULOMB,), "mdr slide or mdr curve").seen(case, "ContactElement")
+    Domain((COULOMB,), "mdr run or mdr curve").seen(case, "ContactElement")
     if not NAME.fullmatch(name):
         raise WrongInput(f"-o {path}: {name!r} must be a word for names in C: at most 40 letters, digits and _")
     require_free([path])

@@ -42,7 +42,7 @@ def add_options_of_record(command: argparse.ArgumentParser) -> None:
 def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
     case = mdr.read_case(args.case)
-    Domain((COULOMB,), "mdr slide or mdr curve").seen(case, "slide_record")
+    Domain((COULOMB,), "mdr run or mdr curve").seen(case, "slide_record")
     make_folder(args)
     recorded = read_file(mdr.read_record, args.motion, args)
     try:

@@ -300,7 +300,8 @@ class _Table:
             return f"{whose}; {ACCELERATION_OF}"
         if key.casefold() not in {one.casefold() for one in known}:
             if key in SHORTHAND:
-                return f"{whose}; write it at the top of the file, above the first table"
+                way_out = "leave kind out" if self.name == "friction" else "write it above the first table of the file"
+                return f"{whose}; {way_out}"
             if homes := _homes(key, self):
                 return f"{whose}; it belongs to {homes}"
         return f"{whose}; {offer(key, [*known, *aliases])}"

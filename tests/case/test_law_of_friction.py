@@ -1,7 +1,8 @@
 """Laws of friction: what they answer, and that numbers beside a case are the law that they make."""
 
 import pickle
-from dataclasses import replace
+import re
+from dataclasses import dataclass, replace
 from inspect import signature
 
 import numpy as np
@@ -124,16 +125,41 @@ class Wide(mdr.ShearStrength):
         return 2 * np.asarray(a)
 
 
+def with_answers(**answers):
+    """A law that answers this."""
+    return type("Own", (mdr.Friction,), {"mu_0": 0.3, "tau_0": 1e4, **answers})()
+
+
+def test_a_law_with_a_word_is_told_in_a_row():
+    @dataclass(frozen=True)
+    class Named(mdr.Friction):
+        mu_0: float
+        name: str
+        tau_0: float = 0.0
+
+    told = str(mdr.SlidingContact(**PARTS, friction=Named(0.3, "glue")))
+    assert re.search(r"friction +Named +mu_0 = 0.3, name = 'glue', tau_0 = 0\n", told)
+
+
 @pytest.mark.parametrize(
     ("law", "error", "words"),
     [
         (mdr.Friction(), TypeError, "friction: Friction must answer mu_0, the share of the normal force"),
         (Mute(), TypeError, r"friction: Mute must answer tau_0, its shear strength \[Pa\], 0.0 for none"),
-        (Spot(-0.1, 1e4, 1e-4), ValueError, r"answers mu_0 = -0.1, tau_0 = 10000.0 Pa: both must be finite"),
-        (Spot(0.0, 0.0, 1e-4), ValueError, "one of them above 0"),
-        (Spot(0.1, np.nan, 1e-4), ValueError, "both must be finite"),
-        (Spot(0.1, 1e4, -1e-4), ValueError, r"strong_radius\(a\) = .* m of a contact of the radius a = 0.000353"),
-        (Wide(0.1, 1e4), ValueError, "a strength acts within it, from 0 to a"),
+        (Spot(-0.1, 1e4, 1e-4), ValueError, "mu_0 of Spot must not be negative, got -0.1"),
+        (Spot(0.0, 0.0, 1e-4), ValueError, "one of the numbers must be above 0"),
+        (Spot(0.1, np.nan, 1e-4), ValueError, "tau_0 of Spot must be a finite number"),
+        (with_answers(mu_0=np.array([0.3])), TypeError, "mu_0 of Own must be a real number"),
+        (with_answers(is_coulomb=True), ValueError, "Coulomb's friction has no strength"),
+        (Spot(0.1, 1e4, -1e-4), ValueError, r"strong_radius\(a\) = .* m of contacts of the radii a = \[0.0"),
+        (Spot(0.1, 1e4, 0.0), ValueError, "not nowhere; set tau_0 = 0"),
+        (Wide(0.1, 1e4), ValueError, "a strength acts within each, from 0 to a"),
+        (with_answers(strong_radius=lambda _, a: np.maximum(4e-4 - a, 0)), ValueError, "no less of a larger one"),
+        (with_answers(strong_radius=lambda _, a: min(a, 1e-4)), TypeError, r"such as np.minimum\(a, b\)"),
+        (with_answers(strong_radius=lambda *_: 1e-4), ValueError, "answers strong_radius"),
+        (with_answers(strong_radius=lambda *_: None), ValueError, "answers strong_radius"),
+        (with_answers(kinks=1e-4), TypeError, "and a tuple of kinks"),
+        (with_answers(kinks=(np.nan,)), ValueError, "they must be radii of contact"),
     ],
 )
 def test_a_law_of_ones_own_that_is_no_friction_is_refused(law, error, words):
@@ -167,6 +193,7 @@ def test_a_file_may_name_the_law():
         "[friction]\n": r"\[friction\] mu_0 is missing",
         '[friction]\nkind = "Spot"\nmu_0 = 0.2\n': r"\[friction\] tau_0 is missing\n.*b is missing",
         '[friction]\nkind = "Amontons"\n': r"\[friction\] kind \"Amontons\" is unknown; there are Coulomb, Shear",
+        '[friction]\nkind = "Coulomb"\nmu_0 = 0.2\ntau_0 = 1.0\n': "tau_0 is no key of Coulomb; leave kind out",
         "[friction]\nmu = 0.2\n": r"\[friction\] mu is no key of Coulomb; did you mean mu_0",
         "tau_0 = 1e4\n": "mu_0 is missing",
         "mu_0 = 0\n": "mu_0 must be positive",

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import SHAPES
+from conftest import SHAPES, Spot
 from numpy.testing import assert_allclose
 from tables import strength as table
 
@@ -185,3 +185,12 @@ def mean_force(scaled):
 def strong_force(case):
     """tau_0 times the mean area of a paraboloid that keeps contact, pi R d."""
     return case.tau_0 * np.pi * case.indenter.R * case.oscillation.u_z0
+
+
+@pytest.mark.parametrize("share", [1e-5, 0.02, 0.3])
+def test_a_strength_is_borne_on_a_disc_that_no_spring_stands_in(share):
+    """It is tau_0 pi b² in full slip, of the few springs within or of the innermost one."""
+    law = Spot(0.3, 1e4, share * BALL.indenter.contact_radius(BALL.oscillation.u_z0))
+    run = mdr.slide(replace(BALL, friction=law), 20 * UNIT, n_springs=16, steps_per_period=32, n_periods=2)
+    borne = law.tau_0 * np.pi * law.b**2 / run.mean_F_z
+    assert run.cof - 0.3 == pytest.approx(borne, rel=1e-5)  # as 16 springs know the mean load

@@ -136,8 +136,9 @@ def strengths_of(
     if not law.needs_area:
         return None
     a = float(law.strong_radius(case.indenter.contact_radius(case.u_z_max)))
+    x = np.where(springs.x == springs.x.min(), np.minimum(springs.x, 0.5 * a), springs.x)  # one bears the least disc
     # sum of 2 sqrt(a² - x²) over the springs, over its integral pi a²: a strength acts on the whole disc
-    share = float(springs.width @ added(springs.x**2, np.asarray(a**2))) * 2 / (np.pi * a**2)
+    share = float(springs.width @ added(x**2, np.asarray(a**2))) * 2 / (np.pi * a**2)
     unit = share * length_x * springs.G_star * stiffer / (2 * law.tau_0)  # radius that adds length_x in the middle
     # without contact that of a first touch: a flat face has all of its radius at once, whenever in a step that is
     radius = contact_radius(case, np.pi / steps * np.arange(2 * steps + 1.0))
@@ -145,4 +146,4 @@ def strengths_of(
     begin, middle, end, h = a2[:-1:2], a2[1::2], a2[2::2], 2 * np.pi / steps
     parabola = np.column_stack([begin, (4 * middle - 3 * begin - end) / h, 2 * (begin + end - 2 * middle) / h**2])
     coulomb = law.mu_0 * case.material.mindlin_ratio * case.cycle.unit / length_x
-    return Strengths(np.array([coulomb]), (springs.x / unit) ** 2, parabola)
+    return Strengths(np.array([coulomb]), (x / unit) ** 2, parabola)
