@@ -237,7 +237,7 @@ FAULTS = [
     # keys and shapes
     ({"slope": "theta = 1\nR = 1"}, "[indenter] R is no key of Cone; there are shape, theta, theta_deg"),
     ({"slope": "theta = 1\nk_x = 1"}, "[indenter] k_x is no key of Cone; it belongs to [pull]"),
-    ({"slope": "theta = 1\nmu_0 = 1"}, "[indenter] mu_0 is no key of Cone; write it at the top"),
+    ({"slope": "theta = 1\nmu_0 = 1"}, "[indenter] mu_0 is no key of Cone; write it above the first table"),
     ({"shape": ""}, f"[indenter] shape is missing; choose one of {SHAPES}"),
     ({"shape": 'shape = "Profile"'}, '[indenter] shape "Profile": its shape is a Python function, which'),
     ({"shape": "shape = 3"}, "[indenter] shape must be a name in quotes, got 3; choose one of"),
