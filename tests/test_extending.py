@@ -85,7 +85,7 @@ OWN = {
         {"material": mdr.StandardLinearSolid(3e6, 1.5e6, 1e-3, 0.5)},
         1e-9,
     ),
-    "law": ({"friction": StickySpot(0.5, 1e4, b=1.0)}, {"friction": mdr.ShearStrength(0.5, 1e4)}, 0.0),
+    "law": ({"friction": StickySpot(0.5, 1e4, b=1.0)}, {"friction": mdr.ShearStrength(0.5, 1e4)}, 1e-12),
     "motion": (
         {"oscillation": OwnMotion(20e-6, 4e-6, OMEGA, 0.3)},
         {"oscillation": mdr.PeriodicMotion(OMEGA, 20e-6, (4e-6, 1.2e-6))},
@@ -183,7 +183,11 @@ ASKED = {
 @pytest.mark.parametrize("what", ASKED)
 def test_a_law_from_outside_is_asked_everywhere(what):
     case, asked = ASKED[what]
-    np.testing.assert_array_equal(asked(case), asked(replace(case, friction=mdr.ShearStrength(0.5, 1e4))))
+    ours, theirs = asked(case), asked(replace(case, friction=mdr.ShearStrength(0.5, 1e4)))
+    if isinstance(ours, str):
+        assert ours == theirs
+    else:
+        assert_allclose(ours, theirs, rtol=1e-9, atol=1e-12)
 
 
 def test_a_law_stands_in_its_own_file():
