@@ -4,6 +4,8 @@ In full slip friction is mu_0 F_N, and on a disc of radius r_s about the middle 
 mu_0 F_N + tau_0 pi r_s². Of a spring at x that is 2 tau_0 sqrt(r_s² - x²) dx. A law of one's own says mu_0, tau_0 and
 r_s.
 
+A spring at rest may bear more, up to the share mu_s, until it is let go (`StaticKinetic`).
+
 A case, its file and its paths take the numbers of `Coulomb` and `ShearStrength` without the law: mu_0 = 0.5 is
 Coulomb(0.5), and with a tau_0 above zero it is ShearStrength(0.5, tau_0).
 
@@ -23,7 +25,7 @@ from mdr.tools.arrays import Array
 from mdr.tools.checks import not_negative, positive
 from mdr.tools.fields import Record, facts, fields_of
 
-__all__ = ["Coulomb", "Friction", "ShearStrength"]
+__all__ = ["Coulomb", "Friction", "ShearStrength", "StaticKinetic"]
 
 SHARE = facts(
     "-", "local coefficient of friction", not_negative, label=r"local friction $\mu_0$", note="coefficient of friction",
@@ -59,6 +61,11 @@ class Friction(Record, ABC):
         @property
         def tau_0(self) -> float:
             """Shear strength [Pa] besides, where it acts."""
+
+    @property
+    def stick(self) -> float:
+        """Friction up to which a point at rest stays there, over that in slip [-]: above 1 where friction falls."""
+        return 1.0
 
     def strong_radius(self, a: ArrayLike) -> Array:
         """Radius of the disc on which the strength acts [m].
@@ -195,6 +202,60 @@ class ShearStrength(_OfNumbers):
         super().__post_init__()
         if not self.tau_0:
             Coulomb(self.mu_0)  # refuses what is no friction at all
+
+
+@dataclass(frozen=True)
+class StaticKinetic(Friction):
+    """A point sticks up to mu_s times its normal force, and slips at mu_k times that: friction falls at once.
+
+    `mu_0` of it, the share in slip, is mu_k. With mu_s = mu_k a case has `Coulomb`.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> mdr.StaticKinetic(mu_s=0.6, mu_k=0.5).mu_0
+    0.5
+    """
+
+    mu_s: float = field(metadata=facts("-", "static coefficient of friction", not_negative, example=0.6))
+    mu_k: float = field(metadata=facts("-", "kinetic coefficient of friction", not_negative, example=0.5))
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        positive("mu_k", self.mu_k, "kinetic coefficient of friction")
+        if not self.mu_k <= self.mu_s < np.inf:
+            raise ValueError(
+                f"mu_s = {self.mu_s:.6g} must not be below mu_k = {self.mu_k:.6g}: friction falls as a point is let "
+                "go; raise mu_s, or give mdr.Coulomb(mu_0)"
+            )
+
+    @property
+    def mu_0(self) -> float:
+        """In slip: mu_k."""
+        return self.mu_k
+
+    @property
+    def tau_0(self) -> float:
+        """No strength: zero [Pa]."""
+        return 0.0
+
+    @property
+    def stick(self) -> float:
+        """mu_s over mu_k."""
+        return self.mu_s / self.mu_k
+
+    @property
+    def simplest(self) -> Friction:
+        """Coulomb's law where friction does not fall."""
+        return self if self.stick > 1 else Coulomb(self.mu_k)
+
+    def varied(self, **changes: Any) -> Friction:
+        """The law with other numbers; mu_0 is mu_k."""
+        if changes.pop("tau_0", 0.0):
+            raise ValueError("tau_0 beside mu_s and mu_k is no law: give mdr.ShearStrength(mu_0, tau_0)")
+        if "mu_0" in changes:
+            changes["mu_k"] = changes.pop("mu_0")
+        return super().varied(**changes)
 
 
 UNNAMED = (ShearStrength, Coulomb)  #: laws that a file need not name: the first with a key that the last has not

@@ -11,7 +11,7 @@ All is scaled: normal lengths by some unit, tangential ones by mu_0 kappa times 
 so that Coulomb's law is |L[e]| <= L[s].
 
 While it presses, friction changes e. `rub` (line.py, disc.py) computes this over a stretch of contact, under the limit
-|L[e]| <= L[q] (limit.py); None leaves it out.
+of a state q (limit.py); None leaves it out.
 What happens is exact from event to event along a line, so that the only error of a step there is that of the parabolas;
 slip that turns (dragged.py) and a strength (limit.py) are met to some order in the step. Elastic springs, dashpots
 (Kelvin) and Maxwell arms are one text: what a material lacks is None, and compiled away.
@@ -36,7 +36,7 @@ from mdr.spring.energies import (
     lost_on_parabola,
     stored,
 )
-from mdr.spring.limit import Pressing, at_limit, limit_at, normal_part
+from mdr.spring.limit import Pressing, at_limit, keep_mode, limit_at, normal_part, stick_of
 from mdr.spring.motion import alone, end_force, glassy, held_force, hold, into_modes, relax, until_alone, until_held
 from mdr.spring.path import (
     FAST,
@@ -169,7 +169,7 @@ def pressed_on(rub, limit, s, e, i, w, pressing, T, modes, arms, tools, look):
         lost = lost_on_parabola(s, i, z_1, z_2, t, tools.times.h, look.nodes, T, modes, arms)
         look.sums[NORMAL_VISCOUS] += w * lost
     q, of_q, beside = at_limit(limit, s, e, i, pressing, T, arms, tools)
-    of = rub(q, e, i, w, of_q, T, modes, arms, tools, look)
+    of = rub(q, e, limit, i, w, of_q, T, modes, arms, tools, look)
     area, moment = normal_part(limit, of.borne, beside)
     if look is not None:
         look.sums[CONTACT_IMPULSE] += w * of.borne[0]
@@ -201,7 +201,8 @@ def at_end(rub, limit, s, e, i, mode, n, rates, h, T, arms):
         R = max(end_force(s, i, rates[0], T, arms), 0.0)
         if rub is not None:
             most = limit_at(limit, i, R, h)
-            f = within(end_force(e, i, rates[1], T, arms), most) if mode == STICK else n * most
+            held = end_force(e, i, rates[1], T, arms)
+            f = within(held, stick_of(limit) * most) if mode == STICK else n * most
     return R, f
 
 
@@ -259,6 +260,7 @@ def one_row(rub, made, s, e, springs, limit, path, rates, T, modes, arms, tools,
                 s[0, i] = z_0
             t, k = h - done, PART
             fill(t, modes, arms, tools.times, PART)
+        keep_mode(limit, i, mode)
         R, f = at_end(rub, limit, s, e, i, mode, n, rates, h, T, arms)
         if mode != FREE:
             end, normal_end, pressed = end + w[i] * f, normal_end + w[i] * R, pressed + (w[i] if R > 0.0 else 0.0)

@@ -396,7 +396,7 @@ def start_of(e, i, top, R, h, G, T, arms):
 
 
 @_inline
-def rub_disc(q, e, i, w, pressing, T, modes, arms, tools, look):
+def rub_disc(q, e, limit, i, w, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, as rub_line of line.py."""
     z, x, t, k, begun, tol, _ = pressing
     h, G, R = tools.times.h, glassy(arms), cubic(held_force(q, i, z[0], z[1], t, k, T, tools, arms), t)

@@ -1,12 +1,16 @@
 """The limit of friction: the most that a spring bears over a stretch of contact, as the force of a state q.
 
-A spring sticks within |L[e]| <= L[q] and slips at |L[e]| = L[q]. `rub` (line.py, disc.py, returned.py) is given q, and
+A spring slips at |L[e]| = L[q], and sticks within |L[e]| <= stick L[q]; stick is 1 unless friction falls. `rub` (line.py, disc.py, returned.py) is given q, and
 the parabola on which q is held, and knows no law of friction. Here the laws stand:
 
 * *Coulomb*, None: q is the compression s itself. `rub` holds it, and all of this is compiled away.
 * *Strength*, a shear strength beside it: coulomb L[s] + c, with c = sqrt(a² - x²) in scaled form. To a constant shear
   stress on a disc of the radius a belongs such a force of the springs (Popov and Heß 2015). With a compression r of
   which L[r] = c, q is coulomb s + r.
+* *Falling*, a static coefficient above the kinetic one, is Strength too: stick is their ratio, and nothing is added.
+  Forces between L[q] and stick L[q] are those of springs that stick and of none that slip. Yet with a dashpot the force
+  of a spring jumps with the mode, and it may stick or slip with the same extension: where friction falls, each spring
+  keeps its mode from step to step, in `was` and `now`.
 
 Over a stretch c is the parabola through its values at the begin, the middle and the end, and r the parabola of which it
 is the force. The root bends where the edge of contact passes. Where this advances, the spring sticks, but for a time
@@ -32,6 +36,9 @@ _inline = inner(forceinline=True, error_model="numpy", fastmath=FAST, **LENT)
 _own = inner(forceinline=True, error_model="numpy", fastmath=FAST, **OWN)  # what gives an array to those that own some
 
 
+NO_MODES, STICKS_ALIKE = np.zeros(0), np.ones(1)
+
+
 class Strength(NamedTuple):
     """The limit of n springs with a shear strength in a step: a share of the normal force, and sqrt(a² - x²) of a
     spring at x, a the radius of contact.
@@ -42,6 +49,9 @@ class Strength(NamedTuple):
     a_0: float  #: a² = a_0 + a_1 t + a_2 t², in a unit in which the root is a force over the stiffness
     a_1: float
     a_2: float
+    stick: float = 1.0  #: of the limit in slip, up to which a spring sticks
+    was: Array = NO_MODES  #: (n,) modes of the springs as the step begins; none unless stick is above 1
+    now: Array = NO_MODES  #: (n,) as it ends
 
 
 class Strengths(NamedTuple):
@@ -50,6 +60,9 @@ class Strengths(NamedTuple):
     coulomb: Array  #: (1,)
     x2: Array  #: (n,)
     a2: Array  #: (n_t, 3) a_0, a_1, a_2 of each step
+    stick: Array = STICKS_ALIKE  #: (1,)
+    was: Array = NO_MODES  #: as of a Strength; they are none of what a block holds
+    now: Array = NO_MODES
 
 
 class Pressing(NamedTuple):
@@ -69,7 +82,8 @@ def limit_in(limits, k):
     """The limit in step k of a period."""
     if limits is None:
         return None
-    return Strength(limits.coulomb[0], limits.x2, limits.a2[k, 0], limits.a2[k, 1], limits.a2[k, 2])
+    a_0, a_1, a_2 = limits.a2[k, 0], limits.a2[k, 1], limits.a2[k, 2]
+    return Strength(limits.coulomb[0], limits.x2, a_0, a_1, a_2, limits.stick[0], limits.was, limits.now)
 
 
 @_own
@@ -78,7 +92,30 @@ def limit_later(limit, t):
     if limit is None:
         return None
     a_0, a_1 = limit.a_0 + t * (limit.a_1 + t * limit.a_2), limit.a_1 + 2.0 * t * limit.a_2
-    return Strength(limit.coulomb, limit.x2, a_0, a_1, limit.a_2)
+    return Strength(limit.coulomb, limit.x2, a_0, a_1, limit.a_2, limit.stick, limit.was, limit.now)
+
+
+@_inline
+def step_over(limits):
+    """The modes at the end of a step are those at the start of the next."""
+    if limits is not None:
+        for i in range(limits.was.size):
+            limits.was[i] = limits.now[i]
+
+
+@_inline
+def keep_mode(limit, i, mode):
+    """Keep the mode of spring i at the end of a step."""
+    if limit is not None and limit.stick > 1.0:
+        limit.now[i] = mode
+
+
+@_inline
+def stick_of(limit):
+    """The multiple of L[q] up to which springs stick."""
+    if limit is None:
+        return 1.0
+    return limit.stick
 
 
 @_inline

@@ -61,6 +61,12 @@ def plus(f, sign, g):
 
 
 @_inline
+def times(factor, f):
+    """A multiple, not negative, of a function."""
+    return Ends(factor * f.v_0, factor * f.d_0, factor * f.v_1, factor * f.d_1, factor * f.low, factor * f.high)
+
+
+@_inline
 def below(f, tol):
     """True for a function below zero as its time begins, or at zero and falling."""
     return f.v_0 < -tol or (f.v_0 <= tol and f.d_0 < 0.0)

@@ -45,7 +45,7 @@ def slip_back(g, R, soft):
 
 
 @_inline
-def rub_returned(q, e, i, w, pressing, T, modes, arms, tools, look):
+def rub_returned(q, e, limit, i, w, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, as rub_line of line.py, in `tools.times.pieces`; top and surface
     are on straight paths.
     """

@@ -187,7 +187,7 @@ class ScaledContact:
         row, rheology, width = Springs(row.gap + slow.sunk, row.w), rheology.without_slow, width * (1 + slow.rho)
         units = Units(length_x, unit, springs.G_star * width, springs.E_star * width, case.omega)
         law = law_of(rheology.T, rheology.rho, rheology.theta)
-        strengths = strengths_of(case, springs, 1 + slow.rho, length_x, steps)
+        strengths = strengths_of(case, springs, row.gap.size, 1 + slow.rho, length_x, steps)
         body, across = (
             body_of(M, C, K, law, drive.h, _ringing(M, K, rheology))
             for M, C, K in (

@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from mdr.march.dynamics.body import Body, numbers_of
+from mdr.march.dynamics.body import N_BODY, Body, numbers_of
 from mdr.march.dynamics.loop import FullSlipForce, Motion, Trace, march
 from mdr.spring.contact import Springs
 from mdr.spring.law import Arms, Law, Modes
@@ -36,6 +36,7 @@ SIGNATURE = types.boolean(_ROW, types.float64, _ROW, _ROWS, types.int64, _ROW)
 N, N_T, N_ARMS, N_MODES, N_AXES, OF_T, ALONG = range(7)
 OF_BODY = 19  #: numbers of a body
 ACROSS, HEAD = ALONG + OF_BODY, ALONG + 2 * OF_BODY  #: places of the body across, and of the arrays
+OF_LIMITS = 4  #: arrays of the limit of friction that are no state
 OF_STEP = 10  #: numbers that a flat trace has of a step
 
 Is = Literal[True] | None
@@ -108,7 +109,7 @@ def block_of(
     sizes = springs.gap.size, motion.z.size - 1, of_arms, of_modes, 1 + plane
     arrays = [springs.gap, springs.w, motion.z, motion.z_dot, motion.x.real, motion.x_dot.real]
     arrays += [motion.x.imag, motion.x_dot.imag] if plane else []
-    arrays += [one.ravel() for part in (modes, arms, slip, limits) if part is not None for one in part]
+    arrays += [one.ravel() for part in (modes, arms, slip, limits and limits[:OF_LIMITS]) if part is not None for one in part]
     arrays += [] if flight is None else [flight]
     kind = Kind(*(None if one is None else True for one in (modes, arms, slip, limits, flight, plane or None)))
     return kernel_of(kind), np.concatenate([sizes, [T], *map(numbers_of, bodies), *arrays])
@@ -218,7 +219,9 @@ def kernel_of(kind: Kind) -> Kernel:
         coulomb, at = taken(block, at, 1 if has_limit is not None else 0)
         x2, at = taken(block, at, gap.size if has_limit is not None else 0)
         a2, at = taken(block, at, 3 * n_t if has_limit is not None else 0)
-        strengths = Strengths(coulomb, x2, a2.reshape((a2.size // 3, 3)))
+        stick, at = taken(block, at, 1 if has_limit is not None else 0)
+        was = x[x.size if in_plane is not None else s.size + N_BODY :]  # along a line, where friction falls
+        strengths = Strengths(coulomb, x2, a2.reshape((a2.size // 3, 3)), stick, was, np.empty(was.size))
         flight, at = taken(block, at, n_t if has_flight is not None else 0)
         modes = if_there(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
         law = Law(block[OF_T], modes, if_there(Arms(rho, rate), has_arms))

@@ -49,6 +49,11 @@ class Limit:
         return float(self.area.sum()) / (2 * np.pi)
 
     @property
+    def falls(self) -> bool:
+        """Whether friction falls as springs are let go."""
+        return bool(self.bears.stick[0] > 1)
+
+    @property
     def order(self) -> float:
         """Order in the step to which the force is met: a root that bends at the edge of contact lowers it."""
         return 2.0 if self.gap_tells else 1.5
@@ -71,11 +76,11 @@ class Limit:
     ) -> Limit:
         """That of springs in this normal motion."""
         deepest, modulus = np.maximum(z.max() - springs.gap, 0.0), np.inf if rheology.T else 1.0 + sum(rheology.rho)
-        if bears is None:
-            nothing = Strengths(np.ones(1), np.zeros(springs.gap.size), np.zeros((z.size - 1, 3)))
-            force = normal.area, normal.moment, normal.end
-            return cls(springs.gap, nothing, True, modulus, normal.s, normal.s[0], deepest, *force, z_dot)
-        coulomb, x2, a2 = bears
+        if bears is None or bears.stick[0] > 1:  # in full slip friction that falls is Coulomb's
+            bears, force = bears or coulombs(springs.gap.size, z.size - 1), (normal.area, normal.moment, normal.end)
+            most = float(bears.stick[0])
+            return cls(springs.gap, bears, True, modulus, normal.s, normal.s[0], most * deepest, *force, z_dot)
+        coulomb, x2, a2 = bears[:3]
         law, e, sums = law_of(rheology.T, rheology.rho, rheology.theta), coulomb * normal.s, np.empty((3, z.size - 1))
         e[0] += added(x2, a2[0, 0]) * (normal.s[0] <= z[0] - springs.gap)
         if law.modes is not None:  # what a period leaves of a difference is forgotten mode by mode
@@ -99,7 +104,7 @@ class Limit:
 
     def borne(self, press: Array) -> Iterator[Array]:
         """The most that each spring bears at the ends of steps at which L[z] is press, (n_t,): nothing in flight."""
-        coulomb, x2, a2 = self.bears
+        coulomb, x2, a2 = self.bears[:3]
         for gap, one in zip(self.gap, x2, strict=True):
             yield np.where(press > gap, coulomb * (press - gap) + added(one, np.roll(a2[:, 0], -1)), 0.0)
 
@@ -110,7 +115,7 @@ class Limit:
         far: at the velocity v for 2 a a'/v² at this modulus. That costs a sixth of v times its square. top, z_dot
         (n_t,): how fast the tops move, whatever moves them, and the depth.
         """
-        coulomb, _, a2 = self.bears
+        coulomb, _, a2 = self.bears[:3]
         pull, grows = self.modulus * np.maximum(top - coulomb * z_dot, 0.0), np.maximum(a2[:, 1], 0.0)
         h = 2 * np.pi / len(a2)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -125,16 +130,21 @@ def added(x2: Array, a2: Array) -> Array:
     return np.sqrt(np.maximum(a2 - x2, 0.0))
 
 
+def coulombs(n: int, steps: int, stick: float = 1.0) -> Strengths:
+    """The limit of n springs that bear a share of their normal force alone, and stick up to a multiple of that."""
+    return Strengths(np.ones(1), np.zeros(n), np.zeros((steps, 3)), np.array([stick]))
+
+
 def strengths_of(
-    case: SlidingContact, springs: SpringArray, stiffer: float, length_x: float, steps: int
+    case: SlidingContact, springs: SpringArray, n: int, stiffer: float, length_x: float, steps: int
 ) -> Strengths | None:
     """The limit of a contact over a period, as steps know it; None of Coulomb's friction.
 
-    stiffer: what slow arms multiply the stiffness of springs by. length_x: unit of tangential lengths [m].
+    n: how many of the springs are marched. stiffer: what slow arms multiply the stiffness of springs by. length_x: unit of tangential lengths [m].
     """
     law = case.friction
     if not law.needs_area:
-        return None
+        return coulombs(n, steps, law.stick) if law.stick > 1 else None
     a = float(law.strong_radius(case.indenter.contact_radius(case.u_z_max)))
     x = np.where(springs.x == springs.x.min(), np.minimum(springs.x, 0.5 * a), springs.x)  # one bears the least disc
     # sum of 2 sqrt(a² - x²) over the springs, over its integral pi a²: a strength acts on the whole disc

@@ -20,7 +20,7 @@ from mdr.march.dynamics.broyden import ROOM
 from mdr.spring.contact import Look
 from mdr.spring.copies import copy
 from mdr.spring.energies import SHEAR_WORK, nodes_of
-from mdr.spring.limit import limit_in, limit_later
+from mdr.spring.limit import limit_in, limit_later, step_over
 from mdr.spring.path import FAST, LENT, OWN, Path, along
 from mdr.spring.row import row
 from mdr.spring.times import new_tools, tools_of
@@ -118,6 +118,7 @@ def march(e, s, of_body, body, side, springs, limits, slip, flight, motion, law,
                 e, s, room, of_body, last, body, side, springs, here, slip, flight, law, tools
             )
             note(trace, j, 1, h, path)
+        step_over(limits)
         solved = solved and found
         trace.area[j], trace.moment[j], trace.u[j], trace.rate[j] = area, moment, of_body[U], of_body[RATE]
     return solved
@@ -162,6 +163,7 @@ def look(e, s, springs, limits, motion, law, trace, seen):
             into = Look(nodes, seen.sums, F, mode, f, f_z)
             of = row(s, e, springs, limit, here, zd, xd, T, modes, arms, now, None, None, into)
             limit = limit_later(limit, t)
+            step_over(limits)
             seen.sums[SHEAR_WORK] += along(x_1, of.area) + 2.0 * along(x_2, of.moment)
         copy(F, seen.F[k])
         if kept > 0:

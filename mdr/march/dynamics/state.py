@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.march.dynamics.body import N_BODY
+from mdr.spring.limit import NO_MODES
 from mdr.spring.path import FAST
 from mdr.tools.arrays import Array
 from mdr.tools.jit import compiled
@@ -23,19 +24,21 @@ class MarchState:
     in the plane.
     """
 
-    __slots__ = ("body", "e", "s", "x")
+    __slots__ = ("body", "e", "modes", "s", "x")
 
     def __init__(self, x: Array, s: Array) -> None:
-        self.x = x  #: (n_x,) extensions, then the body; real parts and imaginary ones in turn
-        vector: NDArray[Any] = x if x.size == s.size + N_BODY else x.view(complex)
+        self.x = x  #: (n_x,) extensions, the body, modes; real parts and imaginary ones in turn
+        vector: NDArray[Any] = x if x.size < 2 * (s.size + N_BODY) else x.view(complex)
         self.s = s  #: (1 + J, n) compressions, and their arms
         self.e: NDArray[Any] = vector[: s.size].reshape(s.shape)  #: (1 + J, n) extensions and arms
-        self.body = vector[s.size :]  #: (N_BODY,) see body.py
+        self.body = vector[s.size : s.size + N_BODY]  #: (N_BODY,) see body.py
+        self.modes = vector[s.size + N_BODY :]  #: (n,) of the springs where friction falls, else none (limit.py)
 
     @classmethod
-    def of(cls, e: NDArray[Any], s: Array, body: NDArray[Any]) -> MarchState:
+    def of(cls, e: NDArray[Any], s: Array, body: NDArray[Any], modes: Array = NO_MODES) -> MarchState:
         """The state of these parts, copied."""
-        return cls(np.concatenate([e.ravel(), body]).view(float), s.copy())
+        parts = [e.ravel(), body, *([modes] if modes.size else [])]
+        return cls(np.concatenate(parts).view(float), s.copy())
 
     def copy(self) -> MarchState:
         """A state that can be marched on without a change of this one."""

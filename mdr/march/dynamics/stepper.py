@@ -19,7 +19,9 @@ from mdr.march.dynamics.dimensionless import AxisMotion, ScaledContact
 from mdr.march.dynamics.kernel import new_trace, trace_of
 from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
 from mdr.spring.contact import Springs
+from mdr.spring.contact_modes import SLIP
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, N_SUMS, SHAKE_WORK, STICK_IMPULSE
+from mdr.spring.limit import NO_MODES
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.progress import Ticker, time_is_over
 
@@ -107,7 +109,8 @@ class Stepper:
     def _ahead(self, body: Array) -> MarchState:
         """All springs at their limit along the pull, and the body so."""
         scaled, one = self.scaled, 1.0 if self.scaled.n_axes == 1 else 1 + 0j
-        return MarchState.of(one * scaled.limit.s, scaled.normal.s, one * body)
+        modes = np.full(scaled.springs.gap.size, float(SLIP)) if scaled.limit.falls else NO_MODES
+        return MarchState.of(one * scaled.limit.s, scaled.normal.s, one * body, modes)
 
     def rest(self) -> MarchState:
         """The state in which nothing is stretched and the body at rest, from which the pull sets off."""
@@ -215,7 +218,10 @@ class Stepper:
         sums[LEAST_SLIP] = np.inf
         if scaled.drive.is_shaken:
             sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
-        loop.look(passed.e, passed.s, scaled.springs, scaled.strengths, self.motion, scaled.law, trace, seen)
+        limits = scaled.strengths
+        if limits is not None:
+            limits = limits._replace(was=passed.modes.real, now=np.zeros_like(passed.modes.real))
+        loop.look(passed.e, passed.s, scaled.springs, limits, self.motion, scaled.law, trace, seen)
         if scaled.drive.across is None:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))
         else:

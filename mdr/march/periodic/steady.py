@@ -17,6 +17,7 @@ from mdr.march.dynamics.dimensionless import ScaledContact
 from mdr.march.dynamics.stepper import TOLERANCE, Stepper
 from mdr.march.periodic.each_alone import search_alone
 from mdr.march.periodic.orbit import Orbit
+from mdr.march.periodic.repeats import repeated
 from mdr.march.periodic.search import at_other_resolution, gain_at_other_resolution, search, search_from_full_slip
 from mdr.march.periodic.settling import Settling
 from mdr.march.periodic.shooting import FULL
@@ -159,7 +160,12 @@ def steady(
     total = None if n_periods is None else n_periods + max(1, resolution.record)  # with those looked at
     stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), total)
     from_full_slip, waiting = resolution.start == "full_slip", None
-    orbit = _searched(stepper, resolution, near) if n_periods is None else None
+    orbit = None
+    if n_periods is None and scaled.limit.falls:
+        state = stepper.full_slip() if from_full_slip else stepper.rest()
+        orbit = repeated(stepper, state, pre_sliding(scaled, stepper.v), most)
+    elif n_periods is None:
+        orbit = _searched(stepper, resolution, near)
     if orbit is None:
         start = stepper.full_slip() if from_full_slip else stepper.rest()
         waiting = Waiting(stepper, start, 0.0 if from_full_slip else pre_sliding(scaled, stepper.v))
@@ -175,7 +181,7 @@ def steady(
 
 def alike_to(end: MarchEnd) -> float:
     """Gap [amplitudes] beyond which springs that keep contact slip back, as a periodic state shows. inf: no spring
-    slips back, or not implemented for this case. -inf: all springs slip back.
+    slips back, or not implemented for this case, such as for friction that falls. -inf: all springs slip back.
 
     Springs slip back under a body that swings back. One that does not slip back has the force f = L[s] - D, where
     D >= 0 is what it lacks to slip forward. D is the same for all of these, and their L[s] differ by a constant. So
@@ -184,6 +190,8 @@ def alike_to(end: MarchEnd) -> float:
     scaled, stepper = end.scaled, end.stepper
     as_one = scaled.body.rigid or scaled.springs.gap.size == 1
     if as_one or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or not scaled.limit.gap_tells:
+        return np.inf
+    if scaled.limit.falls:  # a spring that is let go forgets what it lacked
         return np.inf
     deepest = int(np.argmin(scaled.springs.gap))
     gap = float(scaled.springs.gap[deepest])

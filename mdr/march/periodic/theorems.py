@@ -4,6 +4,8 @@ Under a given normal motion two motions never move apart, and with them friction
 (validation/uniqueness.py). So mean F_x over mean F_z lies between its limit at v_0 -> 0, mu_0 min F_N/mean F_N, and
 mu_0; it is the same from any start; and of two velocities the higher one has no less. A run that says otherwise has not
 settled, however steady it looks.
+
+All this ends where friction falls as springs are let go: then a COF is not above the static coefficient, and no more.
 """
 
 from __future__ import annotations
@@ -14,16 +16,17 @@ from numpy.typing import NDArray
 from mdr.tools.arrays import Array
 
 
-def outside(cof: float, least: float, slack: float) -> str:
+def outside(cof: float, least: float, slack: float, most: float = 1.0) -> str:
     """Why a COF over mu_0 cannot be that of a steady motion; nothing if it can.
 
-    least: the static limit over mu_0, or -1 where a shake may drive. slack: error of cof and least together.
+    least: the static limit over mu_0, or -1 where a shake may drive. slack: error of cof and least together. most: up to
+    which springs stick.
     """
     if cof < least - slack:
-        if least == -1:
+        if least <= -1:
             return f"cof = {cof:.6g} mu_0 is more than the springs can push"
         return f"cof = {cof:.6g} mu_0 lies below the static limit {least:.6g} mu_0, which no steady motion does"
-    if cof > 1 + slack:
+    if cof > most + slack:
         return f"cof = {cof:.6g} mu_0 is more than the springs can hold"
     return ""
 

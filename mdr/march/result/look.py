@@ -44,10 +44,13 @@ def _contradiction(end: MarchEnd, account: PeriodRecord) -> str:
     scaled, settling = end.scaled, end.settling
     if not account.solved:
         return NO_STEP
-    least = -1.0 if scaled.drive.is_shaken else float(scaled.limit.end.min()) / scaled.limit.mean
+    most = float(scaled.limit.bears.stick[0])
+    least = float(scaled.limit.end.min()) / scaled.limit.mean
+    least = -most if scaled.drive.is_shaken or scaled.limit.falls else least
     # between two nodes it may be lower by h²/8 times its bend, and means over nodes miss as much
-    why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * scaled.drive.h**2)
-    return why or ("" if end.error is None else outside(settling.mean, -1.0, end.error + settling.spread + TOLERANCE))
+    why = outside(settling.mean, least, settling.spread + TOLERANCE + 10 * scaled.drive.h**2, most)
+    slack = (end.error or 0.0) + settling.spread + TOLERANCE
+    return why or ("" if end.error is None else outside(settling.mean, -most, slack, most))
 
 
 def may_rest_elsewhere(end: MarchEnd, account: PeriodRecord) -> bool:

@@ -118,7 +118,7 @@ class _Runs:
         springs, which is found, with its gain, at a quarter of the cost.
         """
         known = self.near is not None and self.near.v_0 == self.v_0
-        if not known and self.searched and resolution.start == "full_slip":
+        if not known and self.searched and self.case.friction.stick == 1 and resolution.start == "full_slip":
             half = companions(self.case, resolution).half
             first = steady(self.case, self.v_0, half, None, self.near, 1)
             if first.settling.solved and first.settling.settled:
@@ -127,7 +127,8 @@ class _Runs:
 
     def beside(self, main: MarchEnd, resolution: Resolution) -> MarchEnd:
         """The end of a companion: solved for by itself if the main run was, else of as many periods."""
-        return self._at(resolution, None if main.settling.solved else main.n_periods, MOST_BESIDE)
+        awaited = not main.settling.solved and self.case.friction.stick == 1
+        return self._at(resolution, main.n_periods if awaited else None, MOST_BESIDE)
 
     def half(self, main: MarchEnd) -> MarchEnd:
         """The companion with half of the steps and springs."""

@@ -1,0 +1,116 @@
+"""The steady state of a contact whose friction falls as springs are let go: after how many periods it repeats itself,
+or what it comes to on average where it does not.
+
+What the other searches rest on ends here. Two motions may move apart, as one spring may be let go where the other still
+sticks: a state of one period need not exist, and there may be several. So this marches, and looks whether a state comes
+back after n periods. Springs of one contact may come back after different numbers of them, so that a multiple is looked
+for too. Where none comes back the mean over a long run is the answer, and the spread of the means of its blocks tells
+its statistical error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mdr.march.dynamics.body import RATE, U
+from mdr.march.dynamics.state import UNKNOWN, MarchState
+from mdr.march.dynamics.stepper import Periods, Stepper, joined
+from mdr.march.periodic.orbit import Orbit
+from mdr.march.periodic.settling import Settling
+from mdr.tools.arrays import EXACT
+from mdr.tools.iterate import iterate
+from mdr.tools.progress import time_is_over
+
+COMES_BACK = (1, 2, 3, 4, 6, 12)  #: periods after which springs are looked for; 12, as some need 3 and others 4
+FIRST, MOST = 96, 4096  #: periods between two judgements, at first, and at most where no state comes back
+BLOCKS = 16  #: of the second half of a run
+SIGMAS = 3.0  #: standard deviations of a mean over blocks that its error is
+DRAWN = 8.0  #: times a pull has to have gone as far as springs can be stretched, for blocks to be alike
+
+
+@dataclass(frozen=True, eq=False)
+class _March:
+    """A march so far."""
+
+    states: list[MarchState]  #: the last ones, one a period
+    periods: Periods  #: since the start
+    back: tuple[int, float] = (0, UNKNOWN)  #: after how many periods it comes back, and how far its COF is from that
+    over: bool = field(default=False)
+
+
+def repeated(stepper: Stepper, start: MarchState, pre_sliding: float, most: int | None = None) -> Orbit:
+    """The state that a march ends in, and its COF; most: periods at most, where no state comes back.
+
+    pre_sliding: periods in which the pull goes as far as springs can be stretched.
+    """
+    least = int(min(DRAWN * pre_sliding, MOST)) if np.isfinite(pre_sliding) else MOST
+    most = max(most or MOST, FIRST, least)
+
+    def go_on(at: _March) -> _March:
+        states, parts = list(at.states), [at.periods]
+        for _ in range(max(FIRST, at.periods.cof.size // 2)):
+            state, periods = stepper.advance(states[-1], 1)
+            states, parts = [*states[-2 * COMES_BACK[-1] :], state], [*parts, periods]
+            back = _comes_back(stepper, states)
+            if back[0] or time_is_over():
+                break
+        periods = joined(parts)
+        late = periods.cof.size >= least and _averaged(periods.cof)[1] <= stepper.tolerance
+        return _March(states, periods, back, bool(back[0]) or late or time_is_over() or periods.cof.size >= most)
+
+    at = iterate(go_on, lambda at: at.over, _March([start], Periods(*np.empty((3, 0)))))
+    (n, spread), state, cofs = at.back, at.states[-1], at.periods.cof
+    if n:
+        least_slip = stepper.least_slip(stepper.last, float(cofs[-1]))
+        kind = "periodic" if n == 1 else f"period-{n}"
+        return Orbit(state, Settling(float(cofs[-n:].mean()), spread, True, kind, gain=1.0), least_slip)
+    mean, spread = _averaged(cofs)
+    if cofs.size < DRAWN * pre_sliding:
+        why = f"after {cofs.size} periods springs have not been let go often enough, which takes {pre_sliding:.3g} each"
+        return Orbit(state, Settling(mean, UNKNOWN, False, "unsettled", why=why))
+    if time_is_over() and cofs.size < most:
+        why = f"the time limit is over after {cofs.size} periods"
+        return Orbit(state, Settling(mean, UNKNOWN, False, "unsettled", why=why))
+    return Orbit(state, Settling(mean, min(spread, UNKNOWN), True, "averaged"))
+
+
+def _averaged(cofs: np.ndarray) -> tuple[float, float]:
+    """Mean of the second half, and its statistical error."""
+    half = cofs[cofs.size // 2 :]
+    size = half.size // BLOCKS
+    if not size:
+        return float(cofs.mean()), UNKNOWN
+    means = half[half.size - size * BLOCKS :].reshape(BLOCKS, size).mean(axis=1)
+    return float(means.mean()), SIGMAS * float(means.std(ddof=1)) / np.sqrt(BLOCKS)
+
+
+def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]:
+    """After how many periods the last state comes back, and what is missing in the COF; (0, UNKNOWN) if it does not.
+
+    A change that shrinks by the ratio r in as many periods leaves r/(1 - r) of it to come.
+    """
+    for n in COMES_BACK:
+        if len(states) <= 2 * n:
+            break
+        last, one, two = (states[-1 - k * n] for k in range(3))
+        if not np.array_equal(last.modes, one.modes):
+            continue
+        change, before = _apart(stepper, last, one), _apart(stepper, one, two)
+        missing = change if change <= EXACT else change * change / (before - change) if change < before else UNKNOWN
+        late = stepper.late(one, last, n)
+        if missing + late <= stepper.tolerance:
+            return n, 2 * missing + late
+    return 0, UNKNOWN
+
+
+def _apart(stepper: Stepper, one: MarchState, other: MarchState) -> float:
+    """How far two states are apart, as a share of the friction of full slip: of the force of springs and body."""
+    scaled = stepper.scaled
+    ratios = np.concatenate([[1.0], scaled.rheology.rho])
+    force = float(ratios @ (np.abs(one.e - other.e) @ scaled.springs.w))
+    body = np.abs(one.body - other.body)
+    if not scaled.body.rigid:
+        force += (scaled.body.K + 1) * float(body[U]) + float(np.sqrt(scaled.body.M * (scaled.body.K + 1)) * body[RATE])
+    return force / stepper.mean_limit
