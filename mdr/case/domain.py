@@ -85,6 +85,30 @@ def domain_of(function: Callable[..., Any]) -> Domain:
 
 
 COULOMB = Condition("friction", "Coulomb's friction", lambda case: case.friction.is_coulomb)
+ALIKE = Condition("friction", "friction that does not fall", lambda case: case.friction.stick == 1)
+#: friction that falls is marched in these cases alone
+MARCHED = (
+    Condition(
+        "tau_0",
+        "no shear strength beside friction that falls",
+        lambda case: case.friction.stick == 1 or not case.friction.needs_area,
+    ),
+    Condition(
+        "pull",
+        "a rigid pull or a body with a mass where friction falls",
+        lambda case: case.friction.stick == 1 or case.pull.is_rigid or case.pull.coefficients[0] > 0,
+    ),
+    Condition(
+        "shake",
+        "a contact that moves along the pull alone where friction falls",
+        lambda case: case.friction.stick == 1 or not case.moves_across,
+    ),
+)
+FULL_SLIP = Condition(
+    "friction",
+    "friction that does not fall, or a flat face that is kept in contact",
+    lambda case: case.friction.stick == 1 or not case.edge_moves,  # what touches anew begins in stick
+)
 STRENGTH = Condition("friction", "a shear strength", lambda case: isinstance(case.friction, ShearStrength))
 RIGID = Condition("pull", "a rigid pull", lambda case: case.pull.is_rigid)
 ON_SPRING = Condition("pull", "a body on a spring", lambda case: not case.pull.is_rigid)

@@ -105,8 +105,10 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
 
 
 def _knows_full_slip_alone(case: SlidingContact) -> bool:
-    """Whether a shear strength leaves the condition of full slip alone: where its edge moves."""
-    return case.friction.needs_area and resolved(case).strength_moves
+    """Whether the condition of full slip is left alone: where a shear strength has an edge that moves, or friction
+    falls.
+    """
+    return case.friction.stick > 1 or (case.friction.needs_area and resolved(case).strength_moves)
 
 
 def velocity_scale(case: SlidingContact) -> float:

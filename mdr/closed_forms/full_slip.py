@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import least_of
-from mdr.case.domain import domain_of
+from mdr.case.domain import ALIKE, domain_of, holds_for
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.held_body import CLOSE, held_forward
 from mdr.closed_forms.shaken_pull import CLOSED_FORM, ShakenPull, average_friction
@@ -30,6 +30,7 @@ from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 
 
+@holds_for(ALIKE, instead="slide(case, v_0) at a slow pull")
 def static_cof(case: SlidingContact) -> float:
     """Coefficient of friction [-] in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
 

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, stick_limit, turns
+from mdr.case.domain import FULL_SLIP, holds_for
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip_face import greatest_rate
 from mdr.normal.followed_force import N_STEPS
@@ -48,6 +49,7 @@ SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 =
 MISSED = SHRINK**N_NODES  #: of the whole: no panel beside a cut need be smaller, and no smaller harmonic counts
 
 
+@holds_for(FULL_SLIP, of=resolved, instead="slide(case, v_0) at a few velocities")
 def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape.
 
@@ -107,7 +109,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
     0.000516 m/s
     """
-    case = resolved(case).pulled(direction)
+    case = case.pulled(direction)
     if case.moves_across or not np.isfinite(case.way).all() or case.always_sticks:
         return np.inf
     strengthened = case.strength_moves

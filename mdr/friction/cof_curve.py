@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import domain_of
+from mdr.case.domain import ALIKE, Domain, domain_of
 from mdr.case.friction import named_full
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.critical_velocity import critical_velocity
@@ -228,6 +228,8 @@ class _Asked:
         closely: bool = True,
         **knobs: Any,
     ) -> None:
+        # a curve rests on bounds and on an order of velocities that friction which falls does not have
+        case = Domain((ALIKE,), "slide(case, v_0) at each velocity").seen(case, "cof_curve")
         self.case, self.v_0, accuracy = case, v_0, accuracy_of(accuracy)
         require_knobs(**knobs)
         if method not in (None, "march"):

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
+from mdr.case.domain import ALIKE, holds_for
 from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.friction.cof_curve import friction_at
@@ -57,6 +58,7 @@ class Found(Printed):
 
 
 @offering
+@holds_for(ALIKE, instead="slide(case, v_0) at each velocity")
 def find(
     case: SlidingContact,
     path: str,

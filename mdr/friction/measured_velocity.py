@@ -29,6 +29,7 @@ from itertools import product
 import numpy as np
 
 from mdr.case.contact import SlidingContact
+from mdr.case.domain import ALIKE, holds_for
 from mdr.march.periodic.steady import BUDGET, MarchEnd, Resolution, accuracy_of
 from mdr.march.result.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
 from mdr.march.result.run import SlidingRun, finish
@@ -95,6 +96,7 @@ class MeasuredVelocity(Summarised):
         return self.low is not None and self.high is not None and self.low <= v_0 <= self.high
 
 
+@holds_for(ALIKE, instead="slide(case, v_0) at a few velocities")
 def measure_critical_velocity(
     case: SlidingContact,
     direction: int = 1,

@@ -13,7 +13,7 @@ import numpy as np
 
 from mdr import half_space
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import OutsideDomain, domain_of
+from mdr.case.domain import ALIKE, OutsideDomain, domain_of, holds_for
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub
 from mdr.closed_forms.critical_velocity import NEARLY, critical_velocity, formula_of
@@ -134,6 +134,7 @@ class Verdict(Printed):
 
 
 @offering
+@holds_for(ALIKE, instead="slide(case, v_0) at each velocity")
 def verdict(
     case: SlidingContact,
     *,

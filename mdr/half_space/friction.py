@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum
-from mdr.case.domain import GIVEN_DEPTH, NO_ARMS, RIGID, Domain
+from mdr.case.domain import ALIKE, GIVEN_DEPTH, NO_ARMS, RIGID, Domain
 from mdr.half_space.influence import HalfSpace, Z
 from mdr.half_space.steps import Contact, Step
 from mdr.normal.normal_force import full_cof
@@ -22,7 +22,7 @@ from mdr.tools.progress import Ticker, time_is_over
 MARGIN = 1.06
 #: what can be judged
 JUDGED = Domain(
-    (RIGID, GIVEN_DEPTH, NO_ARMS), instead="mdr.slide; the depth under a load is that of mdr.resolved(case)"
+    (ALIKE, RIGID, GIVEN_DEPTH, NO_ARMS), instead="mdr.slide; the depth under a load is that of mdr.resolved(case)"
 )
 BELOW = 1 - 1e-5  #: its limit, where a traction counts as that of a cell that sticks
 

@@ -1,7 +1,7 @@
 """The limit of friction: the most that a spring bears over a stretch of contact, as the force of a state q.
 
-A spring slips at |L[e]| = L[q], and sticks within |L[e]| <= stick L[q]; stick is 1 unless friction falls. `rub` (line.py, disc.py, returned.py) is given q, and
-the parabola on which q is held, and knows no law of friction. Here the laws stand:
+A spring slips at |L[e]| = L[q], and sticks within |L[e]| <= stick L[q]; stick is 1 unless friction falls. `rub`
+(line.py, disc.py, returned.py) is given q, and the parabola on which q is held. Here the laws stand:
 
 * *Coulomb*, None: q is the compression s itself. `rub` holds it, and all of this is compiled away.
 * *Strength*, a shear strength beside it: coulomb L[s] + c, with c = sqrt(a² - x²) in scaled form. To a constant shear

@@ -34,6 +34,11 @@ Face with a shear strength, abs(tau) <= tau_0 + mu_0 p
     is lost falls like v_0^-3 by springs. It falls exponentially on a half-space, where a ring at the edge sticks whose
     width is 32 a exp(-pi G* v_0/(2 tau_0 a')).
 
+Friction that falls, mu_s > mu_k
+    A spring that keeps contact slips throughout above Eq. (1) with mu_k, and does not know mu_s. Below it sticks until
+    its force, on a straight line, has come to mu_s f_z. So friction overshoots, and falls by a jump at v_c
+    (`falling_friction`).
+
 Body, finite amplitude
     A curved contact grows and shrinks within the period. With s = d ln k_zc/d ln d the normal force is, to second order
     in du_z, F(u_z0) + k_zc du_z [p + alpha s q], p = cos(phi) - T sin(phi), q = (2 e p - e²)/2, where u_z0 + du_z e is
@@ -57,6 +62,7 @@ from mdr.closed_forms.laws.bodies import (
     resonance_residue,
     stiffness_exponent,
 )
+from mdr.closed_forms.laws.falling import FallingFriction, falling_friction
 from mdr.closed_forms.laws.random import random_end, random_friction, random_loss, slow_random_loss
 from mdr.closed_forms.laws.rigid_pull import (
     amplitude_limit,
@@ -71,8 +77,8 @@ from mdr.closed_forms.laws.strength import full_slip_of_half_space, lost_at_the_
 from mdr.closed_forms.laws.waveform import best_waveform, steepest_waveform, waveform_critical, waveform_loss
 
 __all__ = [
-    "EllipticDrive", "LeastOverDepth", "amplitude_limit", "best_waveform", "blow", "coupled_critical_velocity",
-    "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive", "excess_across", "first_order",
+    "EllipticDrive", "FallingFriction", "LeastOverDepth", "amplitude_limit", "best_waveform", "blow", "coupled_critical_velocity",
+    "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive", "excess_across", "falling_friction", "first_order",
     "full_slip_of_half_space", "half_a_blow", "harmonic_share", "held_across", "held_under_shake", "late_return",
     "least_over_depth", "load_error", "lock_in", "lost_across", "lost_at_the_edge", "lost_under_shake", "onset",
     "radial_rub", "random_end", "random_friction", "random_loss", "resonance_residue", "rigid_across",

@@ -109,7 +109,8 @@ def block_of(
     sizes = springs.gap.size, motion.z.size - 1, of_arms, of_modes, 1 + plane
     arrays = [springs.gap, springs.w, motion.z, motion.z_dot, motion.x.real, motion.x_dot.real]
     arrays += [motion.x.imag, motion.x_dot.imag] if plane else []
-    arrays += [one.ravel() for part in (modes, arms, slip, limits and limits[:OF_LIMITS]) if part is not None for one in part]
+    parts = modes, arms, slip, limits and limits[:OF_LIMITS]
+    arrays += [one.ravel() for part in parts if part is not None for one in part]
     arrays += [] if flight is None else [flight]
     kind = Kind(*(None if one is None else True for one in (modes, arms, slip, limits, flight, plane or None)))
     return kernel_of(kind), np.concatenate([sizes, [T], *map(numbers_of, bodies), *arrays])

@@ -140,7 +140,8 @@ def strengths_of(
 ) -> Strengths | None:
     """The limit of a contact over a period, as steps know it; None of Coulomb's friction.
 
-    n: how many of the springs are marched. stiffer: what slow arms multiply the stiffness of springs by. length_x: unit of tangential lengths [m].
+    n: how many of the springs are marched. stiffer: what slow arms multiply the stiffness of springs by. length_x: unit
+    of tangential lengths [m].
     """
     law = case.friction
     if not law.needs_area:

@@ -19,8 +19,8 @@ from mdr.tools.arrays import Array
 def outside(cof: float, least: float, slack: float, most: float = 1.0) -> str:
     """Why a COF over mu_0 cannot be that of a steady motion; nothing if it can.
 
-    least: the static limit over mu_0, or -1 where a shake may drive. slack: error of cof and least together. most: up to
-    which springs stick.
+    least: the static limit over mu_0, or -1 where a shake may drive. slack: error of cof and least together. most: that
+    up to which springs stick.
     """
     if cof < least - slack:
         if least <= -1:

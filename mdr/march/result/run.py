@@ -54,8 +54,10 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
     cof_error: float  #: bound on the numerical error of both, estimated; 2 full_cof, all there can be, if unsettled [-]
-    settled: bool  #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over
-    kind: str  #: "full slip", "periodic", "period-2" ..., "quasi-periodic", "holds" or "unsettled"
+    #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over; where friction falls
+    #: also whether a long run tells the mean, with a statistical error in cof_error
+    settled: bool
+    kind: str  #: "full slip", "periodic", "period-2" ..., "averaged", "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
     least_slip: float  #: smallest slip velocity, along the pull, of the springs in contact in that period [m/s]
@@ -87,6 +89,15 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     e_y: Array | None = None  #: (n_t, n_springs) extensions across [m]
     strength: Array | None = None  #: (n_t, n_springs) limit of friction besides mu_0 f_z [N]; None without tau_0
     f_y: Array | None = None  #: (n_t, n_springs) forces across [N], which have the direction of slip where it slips
+
+    @property
+    def periods(self) -> int | None:
+        """After how many periods of the vibration the motion repeats itself; None where it does not, or was not seen
+        to. Shares, energies and powers are those of one of them.
+        """
+        if not self.settled or not self.kind.startswith(("full slip", "period")):
+            return None
+        return int(self.kind.removeprefix("period-")) if "-" in self.kind else 1
 
     @property
     def share(self) -> float:

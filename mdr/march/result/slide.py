@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mdr.case.contact import SlidingContact
+from mdr.case.domain import MARCHED, Domain
 from mdr.march.periodic.steady import BUDGET, MarchEnd, Resolution, check, steady
 from mdr.march.result.refinement import resolution_of, within
 from mdr.march.result.run import SlidingRun, finish
@@ -14,6 +15,7 @@ from mdr.tools.checks import count, finite, positive
 from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 
+LAW = Domain(MARCHED, instead="for one coefficient, friction=mdr.Coulomb(mu_0)")
 SLOWEST = 1e-9  #: pull, over mu_0 kappa omega du_z, of a run: a slower one moves springs by the rounding of their place
 
 
@@ -97,7 +99,7 @@ def slide(
     >>> f"{run.cof:.3f}", run.settled
     ('0.365', True)
     """
-    case = resolved(case)
+    case = LAW.seen(resolved(case), "slide")
     if not isinstance(lump, bool):
         raise TypeError(f"lump must be True or False, got {lump!r}")
     v_0 = _velocity(case, v_0)

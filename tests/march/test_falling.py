@@ -1,0 +1,156 @@
+"""Friction that falls as springs are let go: against its closed form, small steps, the balance of energies."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from twins.falling import cofs
+
+import mdr
+from mdr.march.periodic.steady import at_hand
+from mdr.march.result.refinement import resolution_of
+
+MATERIALS = {
+    "elastic": mdr.Elastic(3e6, 0.4),
+    "Kelvin": mdr.KelvinVoigt(3e6, 0.4, 1e-3),
+    "arms": mdr.Prony(E_inf=3e6, nu=0.4, arms=((1e6, 2e-3), (5e5, 1e-2))),
+    "arm and dashpot": mdr.Prony(E_inf=3e6, nu=0.4, arms=((1e6, 2e-3),), tau=5e-4),
+}
+SHAPES = {"punch": mdr.FlatPunch(1e-3), "cone": mdr.Cone(0.02), "ball": mdr.Paraboloid(5e-3)}
+
+
+def contact(alpha, stick, shape="punch", material="elastic", pull=None):
+    motion = mdr.NormalOscillation(20e-6, alpha * 20e-6, 300.0)
+    law = mdr.StaticKinetic(0.5 * stick, 0.5)
+    parts = SHAPES[shape], MATERIALS[material]
+    return mdr.SlidingContact(*parts, oscillation=motion, friction=law, pull=pull or mdr.RigidPull())
+
+
+def slide(case, v, **knobs):
+    """A run at v over Eq. (1)."""
+    return mdr.slide(case, v * case.unit_velocity, **knobs)
+
+
+def of_twin(case, v, periods, count):
+    """COF over mu_k by small steps from rest, extrapolated: mean of the last periods."""
+    _, scaled = at_hand(case, resolution_of(case, 32, 128))
+    springs, body, material = scaled.springs, scaled.body, scaled.rheology
+    law = material.T, np.array(material.rho, dtype=float), np.array(material.theta, dtype=float)
+    found = []
+    for steps in (2**13, 2**15):
+        z = case.cycle.over_a_period(steps)[0]
+        of_body = body.M, body.C, body.K
+        found.append(cofs(springs.gap, springs.w, z, v, case.friction.stick, law, of_body, steps, periods)[-count:].mean())
+    return (4 * found[1] - found[0]) / 3
+
+
+@pytest.mark.parametrize("alpha", [0.05, 0.4, 0.95])
+@pytest.mark.parametrize("stick", [1.1, 1.5, 2.0])
+def test_friction_falls_by_a_jump_at_the_critical_velocity_of_the_kinetic_coefficient(alpha, stick):
+    case, knobs = contact(alpha, stick), {"n_springs": 32, "steps_per_period": 4096}
+    below, above = (slide(case, v, **knobs) for v in (1 - 1e-6, 1 + 1e-6))
+    law = mdr.laws.falling_friction(1 - 1e-6, alpha, stick)
+    assert_allclose(below.share, law.share, rtol=0, atol=1e-8)
+    assert below.periods == law.periods
+    assert above.kind == "full slip"
+    assert_allclose(above.cof, 0.5, rtol=1e-12)
+    assert law.share > 1
+
+
+@pytest.mark.parametrize("v", [0.9, 0.5, 0.2, 0.1, 0.03])
+def test_a_punch_below_it_is_the_closed_form(v):
+    run, law = slide(contact(0.4, 1.5), v), mdr.laws.falling_friction(v, 0.4, 1.5)
+    assert abs(run.share - law.share) <= run.cof_error / 0.5
+    assert run.periods == law.periods
+    assert run.settled
+
+
+DRAWN = [  # alpha, stick, v, shape, material
+    (0.73, 1.84, 0.296, "punch", "elastic"),
+    (1.33, 1.70, 0.804, "punch", "elastic"),
+    (1.55, 1.54, 0.136, "punch", "arms"),
+    (0.70, 1.24, 0.200, "punch", "arm and dashpot"),
+    (0.89, 1.49, 0.118, "punch", "Kelvin"),
+    (1.38, 1.61, 0.199, "cone", "Kelvin"),
+    (0.47, 1.78, 0.175, "cone", "elastic"),
+    (1.19, 1.56, 0.208, "ball", "arms"),
+    (0.52, 1.25, 0.544, "ball", "Kelvin"),
+]
+
+
+@pytest.mark.parametrize(("alpha", "stick", "v", "shape", "material"), DRAWN)
+def test_runs_agree_with_small_steps(alpha, stick, v, shape, material):
+    """Contact kept and lost; from rest, as two states may be."""
+    case = contact(alpha, stick, shape, material)
+    run = slide(case, v, n_springs=32, steps_per_period=128, start="rest")
+    assert run.settled
+    assert abs(run.share - of_twin(case, v, 24, 12)) <= run.cof_error / 0.5 + 5e-5
+    assert abs(run.energy_balance.relative) < 1e-12
+
+
+@pytest.mark.parametrize("material", MATERIALS)
+def test_the_heat_of_the_instant_at_which_springs_are_let_go_closes_the_balance(material):
+    for shape in SHAPES:
+        run = slide(contact(1.2, 1.6, shape, material), 0.4, n_periods=4, n_springs=32, steps_per_period=64)
+        assert run.stick_share > 0
+        assert abs(run.energy_balance.relative) < 1e-12
+
+
+def test_friction_is_coulombs_where_it_does_not_fall():
+    case = contact(0.4, 1.0)
+    assert case == replace(case, friction=mdr.Coulomb(0.5))
+    assert slide(case, 0.5).cof == slide(replace(case, friction=mdr.Coulomb(0.5)), 0.5).cof
+
+
+def test_where_nothing_comes_back_the_mean_has_a_statistical_error():
+    """Springs of a ball are let go after different numbers of periods each."""
+    run = slide(contact(0.1, 1.9, "ball"), 0.021, n_springs=32, steps_per_period=64)
+    again = slide(contact(0.1, 1.9, "ball"), 0.021, n_springs=32, steps_per_period=64, start="rest")
+    assert (run.kind, run.periods, run.settled) == ("averaged", None, True)
+    assert abs(run.cof - again.cof) <= run.cof_error + again.cof_error
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"pull": mdr.SpringPull(k_x=2e3)}, "slide takes a rigid pull or a body with a mass where friction falls"),
+        (
+            {"shake": mdr.InPlaneOscillation(du_y=1e-6)},
+            "slide takes a contact that moves along the pull alone where friction falls",
+        ),
+    ],
+)
+def test_what_is_not_done_is_refused_by_name(change, words):
+    case = replace(contact(0.4, 1.5), **change)
+    with pytest.raises(ValueError, match=rf"{words}.*ask for one coefficient, friction=mdr.Coulomb\(mu_0\)"):
+        mdr.slide(case, 1e-4)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        lambda case: mdr.cof_curve(case, [1e-4]),
+        mdr.static_cof,
+        mdr.measure_critical_velocity,
+        mdr.verdict,
+        lambda case: mdr.find(case, "oscillation.du_z", v_0=1e-4, share=0.9),
+        lambda case: mdr.tolerance(case, 1e-4),
+        lambda case: mdr.half_space.slide(case, 1e-4),
+        lambda case: mdr.half_space.curve(case, [1e-4]),
+        mdr.critical_velocity,
+        mdr.full_slip_critical_velocity,
+        mdr.blocked_cof,
+        mdr.laws.onset,
+    ],
+)
+def test_other_answers_are_refused_and_say_what_to_ask(asked):
+    with pytest.raises(ValueError, match=r"takes .*got friction = StaticKinetic.*: ask (mdr\.)?(slide|cof_curve)"):
+        asked(contact(0.4, 1.5, "ball"))
+
+
+def test_a_flat_face_that_is_kept_has_the_critical_velocity_of_the_kinetic_coefficient():
+    case = contact(0.4, 1.5, material="Kelvin", pull=mdr.SpringPull(k_x=2e3, m=0.01, c_x=1.0))
+    plain = replace(case, friction=mdr.Coulomb(0.5))
+    assert mdr.full_slip_critical_velocity(case) == mdr.full_slip_critical_velocity(plain)
+    assert mdr.critical_velocity(case) == mdr.full_slip_critical_velocity(plain)
