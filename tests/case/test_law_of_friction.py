@@ -19,11 +19,13 @@ PARTS = {
     "material": mdr.Elastic(3e6, 0.4),
     "oscillation": mdr.NormalOscillation(20e-6, 5e-6, 300.0),
 }
+FALLING = mdr.StaticKinetic(0.75, 0.5)
 COULOMB, STRONG = mdr.Coulomb(0.5), mdr.ShearStrength(0.2, 1e4)
 PLAIN, FACE = mdr.SlidingContact(**PARTS, mu_0=0.5), mdr.SlidingContact(**PARTS, mu_0=0.2, tau_0=1e4)
 
 
 SPOT = Spot(0.2, 1e4, 1e-4)
+TWO = mdr.SlidingContact(**PARTS, friction=FALLING)
 OWN = mdr.SlidingContact(**PARTS, friction=SPOT)
 COPY = pickle.loads(pickle.dumps(FACE))
 
@@ -58,6 +60,24 @@ def test_numbers_are_the_law_that_they_make(law, case):
     assert pickle.loads(pickle.dumps(given)) == case
     assert eval(repr(given), vars(mdr)) == case
     assert (given.mu_0, given.tau_0) == (law.mu_0, law.tau_0)
+
+
+def test_friction_that_falls_has_the_kinetic_coefficient_in_slip():
+    assert (TWO.mu_0, TWO.tau_0, TWO.friction.stick, FALLING.is_coulomb) == (0.5, 0.0, 1.5, False)
+    assert TWO.unit_velocity == PLAIN.unit_velocity
+    assert mdr.SlidingContact(**PARTS, friction=mdr.StaticKinetic(0.5, 0.5)) == PLAIN
+    assert replace(TWO, mu_0=0.6).friction == mdr.StaticKinetic(0.75, 0.6)
+    assert replace(TWO, tau_0=0.0) == TWO
+    assert case_at(TWO, {"mu_s": 0.8}).friction == case_at(TWO, {"friction.mu_s": 0.8}).friction
+    assert value_at(case_at(TWO, {"mu_s": 0.8, "mu_k": 0.6}), "mu_0") == 0.6
+    with pytest.raises(ValueError, match="tau_0 beside mu_s and mu_k is no law: give mdr.ShearStrength"):
+        replace(TWO, tau_0=1e4)
+    for mu_s, mu_k, words in (
+        (0.4, 0.5, "mu_s = 0.4 must not be below mu_k = 0.5"),
+        (0.5, 0.0, "mu_k must be positive"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            mdr.StaticKinetic(mu_s, mu_k)
 
 
 def test_a_strength_of_zero_is_coulombs():
@@ -174,12 +194,12 @@ def test_no_private_argument_is_shown():
 # --- files ---
 
 
-@pytest.mark.parametrize("case", [PLAIN, FACE, OWN], ids=["0", "tau_0", "own"])
+@pytest.mark.parametrize("case", [PLAIN, FACE, OWN, TWO], ids=["0", "tau_0", "own", "mu_s"])
 def test_a_law_is_written_and_read(case):
     text = mdr.write_case(case)
     assert mdr.parse_case(text) == case
-    assert ("[friction]" in text) == (case is OWN)
-    assert text.startswith("mu_0 = ") == (case is not OWN)
+    assert ("[friction]" in text) == (case in (OWN, TWO))
+    assert text.startswith("mu_0 = ") == (case not in (OWN, TWO))
 
 
 def test_a_file_may_name_the_law():

@@ -41,7 +41,9 @@ def of_twin(case, v, periods, count):
     for steps in (2**13, 2**15):
         z = case.cycle.over_a_period(steps)[0]
         of_body = body.M, body.C, body.K
-        found.append(cofs(springs.gap, springs.w, z, v, case.friction.stick, law, of_body, steps, periods)[-count:].mean())
+        found.append(
+            cofs(springs.gap, springs.w, z, v, case.friction.stick, law, of_body, steps, periods)[-count:].mean()
+        )
     return (4 * found[1] - found[0]) / 3
 
 
@@ -97,6 +99,16 @@ def test_the_heat_of_the_instant_at_which_springs_are_let_go_closes_the_balance(
         assert abs(run.energy_balance.relative) < 1e-12
 
 
+@pytest.mark.parametrize("material", ["elastic", "Kelvin"])
+def test_a_curved_face_slips_fully_from_the_velocity_of_the_static_coefficient_on(material):
+    """A spring that touches anew begins in stick, and slips at once where the pull outruns its static limit."""
+    case, knobs = contact(0.5, 1.6, "ball", material), {"n_springs": 64, "steps_per_period": 256}
+    below, above = (slide(case, v, **knobs) for v in (0.97 * 1.6, 1.01 * 1.6))
+    assert above.kind == "full slip"
+    assert below.stick_share > 0
+    assert below.cof > 0.5
+
+
 def test_friction_is_coulombs_where_it_does_not_fall():
     case = contact(0.4, 1.0)
     assert case == replace(case, friction=mdr.Coulomb(0.5))
@@ -116,7 +128,7 @@ def test_where_nothing_comes_back_the_mean_has_a_statistical_error():
     [
         ({"pull": mdr.SpringPull(k_x=2e3)}, "slide takes a rigid pull or a body with a mass where friction falls"),
         (
-            {"shake": mdr.InPlaneOscillation(du_y=1e-6)},
+            {"shake": mdr.InPlaneOscillation(omega=300.0, du_y=1e-6)},
             "slide takes a contact that moves along the pull alone where friction falls",
         ),
     ],

@@ -19,11 +19,12 @@ from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import Periods, Stepper, joined
 from mdr.march.periodic.orbit import Orbit
 from mdr.march.periodic.settling import Settling
-from mdr.tools.arrays import EXACT
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.iterate import iterate
 from mdr.tools.progress import time_is_over
 
 COMES_BACK = (1, 2, 3, 4, 6, 12)  #: periods after which springs are looked for; 12, as some need 3 and others 4
+DYING = 1e-4  #: of the friction of full slip, what dies out at most where a state has come back
 FIRST, MOST = 96, 4096  #: periods between two judgements, at first, and at most where no state comes back
 BLOCKS = 16  #: of the second half of a run
 SIGMAS = 3.0  #: standard deviations of a mean over blocks that its error is
@@ -76,20 +77,22 @@ def repeated(stepper: Stepper, start: MarchState, pre_sliding: float, most: int 
     return Orbit(state, Settling(mean, min(spread, UNKNOWN), True, "averaged"))
 
 
-def _averaged(cofs: np.ndarray) -> tuple[float, float]:
-    """Mean of the second half, and its statistical error."""
+def _averaged(cofs: Array) -> tuple[float, float]:
+    """Mean of the second half, and its statistical error: no less than what its halves differ by, if it still moves."""
     half = cofs[cofs.size // 2 :]
     size = half.size // BLOCKS
     if not size:
         return float(cofs.mean()), UNKNOWN
     means = half[half.size - size * BLOCKS :].reshape(BLOCKS, size).mean(axis=1)
-    return float(means.mean()), SIGMAS * float(means.std(ddof=1)) / np.sqrt(BLOCKS)
+    moved = abs(float(means[BLOCKS // 2 :].mean() - means[: BLOCKS // 2].mean()))
+    return float(means.mean()), max(SIGMAS * float(means.std(ddof=1)) / np.sqrt(BLOCKS), moved)
 
 
 def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]:
     """After how many periods the last state comes back, and what is missing in the COF; (0, UNKNOWN) if it does not.
 
-    A change that shrinks by the ratio r in as many periods leaves r/(1 - r) of it to come.
+    A change that shrinks by the ratio r in as many periods leaves r/(1 - r) of it to come; the mean over them misses no
+    more than the change itself.
     """
     for n in COMES_BACK:
         if len(states) <= 2 * n:
@@ -98,10 +101,11 @@ def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]
         if not np.array_equal(last.modes, one.modes):
             continue
         change, before = _apart(stepper, last, one), _apart(stepper, one, two)
-        missing = change if change <= EXACT else change * change / (before - change) if change < before else UNKNOWN
+        missing = change if change <= EXACT else change * before / (before - change) if change < before else UNKNOWN
         late = stepper.late(one, last, n)
         if missing + late <= stepper.tolerance:
-            return n, 2 * missing + late
+            parts = (d for d in COMES_BACK if n % d == 0)  # what dies out may swing in a rhythm of its own
+            return next(d for d in parts if d == n or _apart(stepper, last, states[-1 - d]) < DYING), 2 * missing + late
     return 0, UNKNOWN
 
 

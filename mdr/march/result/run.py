@@ -54,8 +54,8 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     cof: float  #: mean F_x over mean F_z in whole periods [-]
     cof_y: float  #: mean F_y, across the pull, over mean F_z [-]
     cof_error: float  #: bound on the numerical error of both, estimated; 2 full_cof, all there can be, if unsettled [-]
-    #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over; where friction falls
-    #: also whether a long run tells the mean, with a statistical error in cof_error
+    #: whether the motion is periodic: solved for, or windows of periods agree and its beat is over; where friction
+    #: falls, also whether a long run tells its mean, with a statistical error in cof_error
     settled: bool
     kind: str  #: "full slip", "periodic", "period-2" ..., "averaged", "quasi-periodic", "holds" or "unsettled"
     why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
