@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from twins.falling import cofs
 
 import mdr
+from mdr.case.depth_cycle import harmonic_sum
 from mdr.march.periodic.steady import at_hand
 from mdr.march.result.refinement import resolution_of
 
@@ -36,14 +37,13 @@ def of_twin(case, v, periods, count):
     """COF over mu_k by small steps from rest, extrapolated: mean of the last periods."""
     _, scaled = at_hand(case, resolution_of(case, 32, 128))
     springs, body, material = scaled.springs, scaled.body, scaled.rheology
-    law = material.T, np.array(material.rho, dtype=float), np.array(material.theta, dtype=float)
-    found = []
+    law, found = (material.T, np.array(material.rho, dtype=float), np.array(material.theta, dtype=float)), []
     for steps in (2**13, 2**15):
-        z = case.cycle.over_a_period(steps)[0]
-        of_body = body.M, body.C, body.K
-        found.append(
-            cofs(springs.gap, springs.w, z, v, case.friction.stick, law, of_body, steps, periods)[-count:].mean()
-        )
+        z, way = case.cycle.over_a_period(steps)[0], np.zeros(steps + 1)
+        if case.is_shaken:
+            way = harmonic_sum(case.way / case.unit_length, np.linspace(0, 2 * np.pi, steps + 1))
+        parts = case.friction.stick, law, (body.M, body.C, body.K)
+        found.append(cofs(springs.gap, springs.w, z, way, v, *parts, steps, periods)[-count:].mean())
     return (4 * found[1] - found[0]) / 3
 
 
@@ -89,6 +89,31 @@ def test_runs_agree_with_small_steps(alpha, stick, v, shape, material):
     assert run.settled
     assert abs(run.share - of_twin(case, v, 24, 12)) <= run.cof_error / 0.5 + 5e-5
     assert abs(run.energy_balance.relative) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("alpha", "stick", "v", "du_x", "material"),
+    [(0.6, 1.4, 0.3, 15e-6, "elastic"), (1.3, 1.7, 0.1, 25e-6, "elastic"), (0.5, 1.5, 0.2, 20e-6, "Kelvin")],
+)
+def test_runs_shaken_along_agree_with_small_steps(alpha, stick, v, du_x, material):
+    """Springs are let go both ways."""
+    case = replace(contact(alpha, stick, material=material), shake=mdr.InPlaneOscillation(du_x=du_x, omega=300.0))
+    run = slide(case, v, n_springs=32, steps_per_period=256, start="rest")
+    assert run.settled
+    assert abs(run.share - of_twin(case, v, 24, 12)) <= run.cof_error / 0.5 + 5e-5
+    assert abs(run.energy_balance.relative) < 1e-12
+
+
+@pytest.mark.parametrize(("alpha", "stick", "v"), [(0.51, 1.95, 0.146), (0.76, 1.44, 0.429), (0.26, 1.30, 0.729)])
+def test_a_body_agrees_with_small_steps(alpha, stick, v):
+    """Its motion is on parabolas, so that energies close to the second order of a step."""
+    k = contact(alpha, stick).k_xc
+    case = contact(alpha, stick, pull=mdr.SpringPull(k_x=k, m=k / 600.0**2, c_x=0.4 * k / 600.0))
+    run = slide(case, v, n_springs=32, steps_per_period=256, start="rest")
+    assert run.settled
+    assert run.stick_share > 0
+    assert abs(run.share - of_twin(case, v, 60, 12)) <= run.cof_error / 0.5 + 5e-5
+    assert abs(run.energy_balance.relative) < 1e-6
 
 
 @pytest.mark.parametrize("material", MATERIALS)
@@ -153,7 +178,6 @@ def test_what_is_not_done_is_refused_by_name(change, words):
         mdr.critical_velocity,
         mdr.full_slip_critical_velocity,
         mdr.blocked_cof,
-        mdr.laws.onset,
     ],
 )
 def test_other_answers_are_refused_and_say_what_to_ask(asked):

@@ -13,10 +13,11 @@ from numba import njit
 
 
 @njit(error_model="numpy")
-def cofs(gap, w, motion, v, stick, material, body, steps, periods):
-    """COF over the kinetic one of each period, from rest in the plane. motion: depth over a period (steps + 1,).
+def cofs(gap, w, motion, way, v, stick, material, body, steps, periods):
+    """COF over the kinetic one of each period, from rest in the plane.
 
-    material: T, rho, theta. body: M, C, K; an infinite K does not yield.
+    motion, way: depth, and way of a shake, over a period (steps + 1,). material: T, rho, theta. body: M, C, K;
+    an infinite K does not yield.
     """
     (T, rho, theta), (M, C, K), h, n, J = material, body, 2 * math.pi / steps, gap.size, material[1].size
     s, e, slips, y, rate = np.zeros((1 + J, n)), np.zeros((1 + J, n)), np.zeros(n), 0.0, 0.0
@@ -26,7 +27,7 @@ def cofs(gap, w, motion, v, stick, material, body, steps, periods):
     for period in range(periods):
         shear = press = 0.0
         for step in range(steps):
-            dx, force = h * (v + rate), 0.0
+            dx, force = h * (v + rate) + way[step + 1] - way[step], 0.0
             for i in range(n):
                 fs, fe = s[0, i], e[0, i]  # forces without a move
                 for j in range(J):

@@ -77,12 +77,12 @@ from mdr.closed_forms.laws.strength import full_slip_of_half_space, lost_at_the_
 from mdr.closed_forms.laws.waveform import best_waveform, steepest_waveform, waveform_critical, waveform_loss
 
 __all__ = [
-    "EllipticDrive", "FallingFriction", "LeastOverDepth", "amplitude_limit", "best_waveform", "blow", "coupled_critical_velocity",
-    "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive", "excess_across", "falling_friction", "first_order",
-    "full_slip_of_half_space", "half_a_blow", "harmonic_share", "held_across", "held_under_shake", "late_return",
-    "least_over_depth", "load_error", "lock_in", "lost_across", "lost_at_the_edge", "lost_under_shake", "onset",
-    "radial_rub", "random_end", "random_friction", "random_loss", "resonance_residue", "rigid_across",
-    "rigid_shake", "rise_of_lost_punch", "slow_limit", "slow_random_loss", "steepest_waveform", "steered_across",
-    "stiffened_by_coupling", "stiffness_exponent", "touch_depth", "velocity_of_share", "waveform_critical",
-    "waveform_loss",
+    "EllipticDrive", "FallingFriction", "LeastOverDepth", "amplitude_limit", "best_waveform", "blow",
+    "coupled_critical_velocity", "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive",
+    "excess_across", "falling_friction", "first_order", "full_slip_of_half_space", "half_a_blow", "harmonic_share",
+    "held_across", "held_under_shake", "late_return", "least_over_depth", "load_error", "lock_in", "lost_across",
+    "lost_at_the_edge", "lost_under_shake", "onset", "radial_rub", "random_end", "random_friction", "random_loss",
+    "resonance_residue", "rigid_across", "rigid_shake", "rise_of_lost_punch", "slow_limit", "slow_random_loss",
+    "steepest_waveform", "steered_across", "stiffened_by_coupling", "stiffness_exponent", "touch_depth",
+    "velocity_of_share", "waveform_critical", "waveform_loss",
 ]  # fmt: skip
