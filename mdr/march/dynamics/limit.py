@@ -104,9 +104,9 @@ class Limit:
 
     def borne(self, press: Array) -> Iterator[Array]:
         """The most that each spring bears at the ends of steps at which L[z] is press, (n_t,): nothing in flight."""
-        coulomb, x2, a2 = self.bears[:3]
+        coulomb, x2, a2, stick = self.bears[:4]
         for gap, one in zip(self.gap, x2, strict=True):
-            yield np.where(press > gap, coulomb * (press - gap) + added(one, np.roll(a2[:, 0], -1)), 0.0)
+            yield stick * np.where(press > gap, coulomb * (press - gap) + added(one, np.roll(a2[:, 0], -1)), 0.0)
 
     def unseen(self, top: Array, z_dot: Array) -> float:
         """Friction lost at the advancing edge of contact, below the resolution of the steps, over that of full slip.

@@ -3,6 +3,11 @@
 The periodic state is searched for from full slip (search.py). Where none is found, and from rest, the march goes on
 until the COF settles (waiting.py). Springs under a rigid pull are independent: elastic ones along a line need two
 periods from full slip; those with arms, and those in the plane, are solved for one by one (each_alone.py).
+
+All this rests on friction that does not fall as springs are let go: two motions never move apart, so that the state is
+one of one period and shooting has a gain; that of an elastic spring is below full slip (`_after_two_periods`); the map
+of a period does not jump (each_alone.py); no force is above that of full slip (`within_friction`); what springs lack
+that do not slip back is alike (`alike_to`). Where friction falls, repeats.py marches.
 """
 
 from __future__ import annotations
@@ -161,6 +166,11 @@ def steady(
     stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), total)
     from_full_slip, waiting = resolution.start == "full_slip", None
     orbit = None
+    if scaled.limit.falls and scaled.body.light:
+        raise ValueError(
+            f"steps_per_period = {resolution.steps} is too coarse for friction that falls: steps must resolve how fast "
+            "the body swings on the contact; raise it, or the mass of the body"
+        )
     if n_periods is None and scaled.limit.falls:
         state = stepper.full_slip() if from_full_slip else stepper.rest()
         orbit = repeated(stepper, state, pre_sliding(scaled, stepper.v), most)
