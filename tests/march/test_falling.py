@@ -116,6 +116,23 @@ def test_a_body_agrees_with_small_steps(alpha, stick, v):
     assert abs(run.energy_balance.relative) < 1e-6
 
 
+@pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
+@pytest.mark.parametrize(("damping", "share"), [(0.0, 1.0), (0.02, 1.0203)])
+def test_stick_slip_of_a_body_next_to_no_vibration(damping, share):
+    """In a rhythm of its own, from rest; without a damper it ends on a contact that yields. Small steps agree."""
+    case = contact(1e-6, 1.5)
+    k, omega_0, fall = 0.1 * case.k_xc, 600.0, 0.25 * case.indenter.force(20e-6, case.material.E_star)
+    m = k / omega_0**2
+    case = replace(case, pull=mdr.SpringPull(k_x=k, m=m, c_x=2 * damping * m * omega_0))
+    v_0 = 0.3 * fall * omega_0 / k
+    run = mdr.slide(case, v_0, start="rest", n_springs=32, steps_per_period=256)
+    assert run.settled
+    assert (run.kind, run.periods) == (("averaged", None) if damping else ("full slip", 1))
+    assert abs(run.share - share) <= run.cof_error / 0.5 + 5e-5
+    periods = of_twin(case, v_0 / case.unit_velocity, 1200, 1000)
+    assert abs(run.share - periods) <= run.cof_error / 0.5 + 2e-4
+
+
 @pytest.mark.parametrize("material", MATERIALS)
 def test_the_heat_of_the_instant_at_which_springs_are_let_go_closes_the_balance(material):
     for shape in SHAPES:

@@ -20,7 +20,7 @@ def cofs(gap, w, motion, way, v, stick, material, body, steps, periods):
     an infinite K does not yield.
     """
     (T, rho, theta), (M, C, K), h, n, J = material, body, 2 * math.pi / steps, gap.size, material[1].size
-    s, e, slips, y, rate = np.zeros((1 + J, n)), np.zeros((1 + J, n)), np.zeros(n), 0.0, 0.0
+    s, e, slips, y, rate = np.zeros((1 + J, n)), np.zeros((1 + J, n)), np.zeros(n), 0.0, 0.0 if math.isinf(K) else -v
     touched = np.zeros(n, dtype=np.bool_)
     keep = 1 / (1 + h / theta)
     stiff, out = 1 + T / h + (rho * keep).sum(), np.zeros(periods)
