@@ -217,13 +217,12 @@ class StaticKinetic(Friction):
     0.5
     """
 
-    mu_s: float = field(metadata=facts("-", "static coefficient of friction", not_negative, example=0.6))
-    mu_k: float = field(metadata=facts("-", "kinetic coefficient of friction", not_negative, example=0.5))
+    mu_s: float = field(metadata=facts("-", "static coefficient of friction", example=0.6))
+    mu_k: float = field(metadata=facts("-", "kinetic coefficient of friction", example=0.5))
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        positive("mu_k", self.mu_k, "kinetic coefficient of friction")
-        if not self.mu_k <= self.mu_s < np.inf:
+        if self.mu_s < self.mu_k:
             raise ValueError(
                 f"mu_s = {self.mu_s:.6g} must not be below mu_k = {self.mu_k:.6g}: friction falls as a point is let "
                 "go; raise mu_s, or give mdr.Coulomb(mu_0)"
