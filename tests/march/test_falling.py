@@ -181,6 +181,13 @@ def test_what_is_not_done_is_refused_by_name(change, words):
         mdr.slide(case, 1e-4)
 
 
+def test_steps_that_do_not_resolve_the_body_are_refused():
+    case = contact(0.4, 1.5)
+    case = replace(case, pull=mdr.SpringPull(k_x=case.k_xc, m=case.k_xc / (90 * 300.0) ** 2))
+    with pytest.raises(ValueError, match=r"steps_per_period = \d+, of a run .* too coarse for friction that falls"):
+        slide(case, 0.5, steps_per_period=64)
+
+
 @pytest.mark.parametrize(
     "asked",
     [

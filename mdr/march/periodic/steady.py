@@ -168,8 +168,9 @@ def steady(
     orbit = None
     if scaled.limit.falls and scaled.body.light:
         raise ValueError(
-            f"steps_per_period = {resolution.steps} is too coarse for friction that falls: steps must resolve how fast "
-            "the body swings on the contact; raise it, or the mass of the body"
+            f"steps_per_period = {resolution.steps}, of a run or of one with fewer steps beside it, is too coarse for "
+            "friction that falls: steps must resolve how fast the body swings on the contact; raise steps_per_period, "
+            "or the mass of the body"
         )
     if n_periods is None and scaled.limit.falls:
         state = stepper.full_slip() if from_full_slip else stepper.rest()
