@@ -23,7 +23,7 @@ from mdr.tools.arrays import EXACT, Array
 from mdr.tools.iterate import iterate
 from mdr.tools.progress import time_is_over
 
-COMES_BACK = (1, 2, 3, 4, 6, 12)  #: periods after which springs are looked for; 12, as some need 3 and others 4
+COMES_BACK = range(1, 13)  #: periods after which a state is looked for; 12, as some springs need 3 and others 4
 DYING = 1e-4  #: of the friction of full slip, what dies out at most where a state has come back
 FIRST, MOST = 96, 4096  #: periods between two judgements, at first, and at most where no state comes back
 BLOCKS = 16  #: of the second half of a run
