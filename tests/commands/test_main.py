@@ -216,6 +216,23 @@ def test_a_run_for_machines(capsys, punch):
     assert abs(answer["energy_balance"]["residual"]) < 1e-3 * answer["energy_balance"]["friction_loss"]
 
 
+def test_what_falling_friction_lacks_is_left_out_or_refused(tmp_path, capsys):
+    motion = mdr.NormalOscillation(u_z0=20e-6, du_z=8e-6, omega=300.0)
+    law = mdr.StaticKinetic(mu_s=0.6, mu_k=0.5)
+    case = mdr.SlidingContact(mdr.Paraboloid(R=5e-3), mdr.Elastic(E=3e6, nu=0.5), oscillation=motion, friction=law)
+    path = tmp_path / "falls.toml"
+    path.write_text(mdr.write_case(case), encoding="utf-8")
+    assert main(["run", str(path), "--v-0", "5mm/s", "--n-springs", "32", "--steps", "64"]) == 0
+    assert "v_c has no closed form here, mu_0 = 0.5" in capsys.readouterr().out
+    (tmp_path / "way.csv").write_text("t [s],u_x [m],u_z [m]\n0,0,1e-5\n1,1e-5,1e-5\n")
+    for command in (
+        ["export", str(path), "-o", str(tmp_path / "one.h")],
+        ["record", str(path), str(tmp_path / "way.csv")],
+    ):
+        assert main(command) == 1
+        assert "takes Coulomb's friction" in capsys.readouterr().err
+
+
 def test_a_run_that_does_not_settle_fails(capsys, punch, monkeypatch):
     case = read_case(punch)
     loose = mdr.slide(case, 1e-5, n_springs=32, steps_per_period=64, n_periods=2, record=1)
