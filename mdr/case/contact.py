@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr.case.friction import UNNAMED, Friction, law_of
+from mdr.case.friction import UNNAMED, Friction, law_of, static_of
 from mdr.case.in_plane import Shake, sign_of
 from mdr.case.motion import Motion
 from mdr.case.pull import Pull, RigidPull
@@ -48,7 +48,7 @@ class SlidingContact(Scales, Record, Summarised):
     """An indenter that slides on a half-space while it is shaken, in the normal direction or in the plane.
 
     Friction is a law, ``friction=mdr.Coulomb(0.5)``, or given by its numbers: mu_0, and tau_0, the shear strength of a
-    face [Pa]. Both can be read of every case.
+    face [Pa], or mu_s, up to which a point at rest stays there. All can be read of every case.
 
     Examples
     --------
@@ -72,10 +72,11 @@ class SlidingContact(Scales, Record, Summarised):
     shake: Shake | None = field(default=None, metadata=facts("", "shake in the plane, besides the pull", rule=None))
     tau_0: InitVar[float] = 0.0
     friction: Friction = field(default=None, metadata=facts("", "law of friction", rule=None))  # type: ignore[assignment]
+    mu_s: InitVar[float | None] = field(default=None, kw_only=True)
     _law: InitVar[Friction | None] = field(default=None, kw_only=True)  # handed over by dataclasses.replace
 
-    def __post_init__(self, mu_0: Any, tau_0: Any, _law: Friction | None) -> None:
-        self._keep(law_of(self.friction, mu_0, tau_0, _law))
+    def __post_init__(self, mu_0: Any, tau_0: Any, mu_s: Any, _law: Friction | None) -> None:
+        self._keep(law_of(self.friction, mu_0, tau_0, mu_s, _law))
         for name, kind in KINDS.items():
             if name not in OPTIONAL or getattr(self, name) is not None:
                 instance(name, getattr(self, name), kind)
@@ -129,7 +130,8 @@ class SlidingContact(Scales, Record, Summarised):
                 f"friction = {law!r} answers mu_0 = {mu_0!r}, tau_0 = {tau_0!r} Pa, is_coulomb = {law.is_coulomb!r}: "
                 "one of the numbers must be above 0, and Coulomb's friction has no strength"
             )
-        for name, value in (("friction", law), ("_law", law), ("mu_0", mu_0), ("tau_0", tau_0)):
+        kept = {"friction": law, "_law": law, "mu_0": mu_0, "tau_0": tau_0, "mu_s": static_of(law)}
+        for name, value in kept.items():
             object.__setattr__(self, name, value)
 
     def _refuse_other_radii(self, greatest: float) -> None:

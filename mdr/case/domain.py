@@ -86,29 +86,6 @@ def domain_of(function: Callable[..., Any]) -> Domain:
 
 COULOMB = Condition("friction", "Coulomb's friction", lambda case: case.friction.is_coulomb)
 ALIKE = Condition("friction", "friction that does not fall", lambda case: case.friction.stick == 1)
-#: friction that falls is marched in these cases alone
-MARCHED = (
-    Condition(
-        "tau_0",
-        "no shear strength beside friction that falls",
-        lambda case: case.friction.stick == 1 or not case.friction.needs_area,
-    ),
-    Condition(
-        "pull",
-        "a rigid pull or a body with a mass where friction falls",
-        lambda case: case.friction.stick == 1 or case.pull.is_rigid or case.pull.coefficients[0] > 0,
-    ),
-    Condition(
-        "shake",
-        "a contact that moves along the pull alone where friction falls",
-        lambda case: case.friction.stick == 1 or not case.moves_across,
-    ),
-)
-FULL_SLIP = Condition(
-    "friction",
-    "friction that does not fall, or a flat face that is kept in contact",
-    lambda case: case.friction.stick == 1 or not case.edge_moves,  # what touches anew begins in stick
-)
 STRENGTH = Condition("friction", "a shear strength", lambda case: isinstance(case.friction, ShearStrength))
 RIGID = Condition("pull", "a rigid pull", lambda case: case.pull.is_rigid)
 ON_SPRING = Condition("pull", "a body on a spring", lambda case: not case.pull.is_rigid)
@@ -126,3 +103,22 @@ HARMONIC = Condition(
 ABOVE_ZERO = Condition("working_depth", "a mean depth above 0", lambda case: case.working_depth > 0)
 ELASTIC = Condition("material", "an elastic material", lambda case: not case.rheology.remembers)
 NO_ARMS = Condition("material", "an elastic or Kelvin material", lambda case: not case.material.contact_arms)
+NO_STRENGTH = Condition("tau_0", "no shear strength", lambda case: not case.friction.needs_area)
+RIGID_OR_MASS = Condition(
+    "pull", "a rigid pull or a body with a mass", lambda case: case.pull.is_rigid or case.pull.coefficients[0] > 0
+)
+ALONG = Condition("shake", "a contact that moves along the pull alone", lambda case: not case.moves_across)
+FLAT = Condition("indenter", "a flat face that is kept in contact", lambda case: not case.edge_moves)
+
+
+def where_it_falls(*conditions: Condition) -> tuple[Condition, ...]:
+    """The same, asked of friction that falls alone."""
+
+    def asked(one: Condition) -> Condition:
+        words = f"{one.words} where friction falls"
+        return one._replace(words=words, holds=lambda case: case.friction.stick == 1 or one.holds(case))
+
+    return tuple(map(asked, conditions))
+
+
+MARCHED = where_it_falls(NO_STRENGTH, RIGID_OR_MASS, ALONG)

@@ -6,8 +6,8 @@ r_s.
 
 A spring at rest may bear more, up to the share mu_s, until it is let go (`StaticKinetic`).
 
-A case, its file and its paths take the numbers of `Coulomb` and `ShearStrength` without the law: mu_0 = 0.5 is
-Coulomb(0.5), and with a tau_0 above zero it is ShearStrength(0.5, tau_0).
+A case, its file and its paths take numbers without the law: mu_0 = 0.5 is Coulomb(0.5), with a tau_0 above zero it is
+ShearStrength(0.5, tau_0), and with a mu_s above 0.5 StaticKinetic(mu_s, 0.5).
 
 Symbols: mu_0 [-], tau_0 [Pa], a radius of contact [m].
 """
@@ -120,13 +120,18 @@ class Friction(Record, ABC):
         """Names of what can be set in the law."""
         return fields_of(self)
 
+    @property
+    def taken(self) -> tuple[str, ...]:
+        """Names that `varied` takes: `numbers`, and those that make another law of it."""
+        return self.numbers
+
     def varied(self, **changes: Any) -> Friction:
         """The law with other numbers.
 
         Parameters
         ----------
         **changes
-            Values by name, of those in `numbers`.
+            Values by name, of those in `taken`.
 
         Returns
         -------
@@ -142,12 +147,22 @@ class Friction(Record, ABC):
 
 
 class _OfNumbers(Friction):
-    """A law that is made of mu_0 and tau_0 alone, and changes its kind with them."""
+    """A law that is made of mu_0 and tau_0 alone, and changes its kind with them, and with a mu_s."""
+
+    @property
+    def mu_s(self) -> float:
+        """At rest as in slip: mu_0 [-]."""
+        return self.mu_0
 
     @property
     def numbers(self) -> tuple[str, ...]:
         """Both, as a strength may be set in either."""
         return fields_of(ShearStrength)
+
+    @property
+    def taken(self) -> tuple[str, ...]:
+        """These, and mu_s."""
+        return (*self.numbers, "mu_s")
 
     @property
     def is_coulomb(self) -> bool:
@@ -244,6 +259,11 @@ class StaticKinetic(Friction):
         return self.mu_s / self.mu_k
 
     @property
+    def taken(self) -> tuple[str, ...]:
+        """Both, and mu_0 for mu_k."""
+        return (*self.numbers, "mu_0", "tau_0")
+
+    @property
     def simplest(self) -> Friction:
         """Coulomb's law where friction does not fall."""
         return self if self.stick > 1 else Coulomb(self.mu_k)
@@ -251,40 +271,54 @@ class StaticKinetic(Friction):
     def varied(self, **changes: Any) -> Friction:
         """The law with other numbers; mu_0 is mu_k."""
         if changes.pop("tau_0", 0.0):
-            raise ValueError("tau_0 beside mu_s and mu_k is no law: give mdr.ShearStrength(mu_0, tau_0)")
+            raise ValueError(NO_LAW)
         if "mu_0" in changes:
             changes["mu_k"] = changes.pop("mu_0")
         return super().varied(**changes)
 
 
-UNNAMED = (ShearStrength, Coulomb)  #: laws that a file need not name: the first with a key that the last has not
+NO_LAW = "tau_0 beside mu_s and mu_k is no law: give mdr.ShearStrength(mu_0, tau_0), or mdr.StaticKinetic(mu_s, mu_k)"
+UNNAMED = (
+    StaticKinetic,
+    ShearStrength,
+    Coulomb,
+)  #: laws that a file need not name: the first with a key that the last has not
 #: numbers of friction that stand without a law
 SHORTHAND = tuple(dict.fromkeys(name for law in reversed(UNNAMED) for name in fields_of(law)))
 
 
-def of_numbers(mu_0: Any, tau_0: Any = 0.0) -> Friction:
-    """The law of these numbers: Coulomb's without a strength."""
-    return ShearStrength(mu_0, tau_0).simplest
+def of_numbers(mu_0: Any, tau_0: Any = 0.0, mu_s: Any = None) -> Friction:
+    """The law of these numbers: Coulomb's without a strength, and without a mu_s above mu_0."""
+    if mu_s is None:
+        return ShearStrength(mu_0, tau_0).simplest
+    law = StaticKinetic(mu_s, mu_0).simplest
+    return law.varied(tau_0=tau_0) if tau_0 else law
 
 
-def law_of(friction: Any, mu_0: Any, tau_0: Any, known: Friction | None = None) -> Any:
+def law_of(friction: Any, mu_0: Any, tau_0: Any, mu_s: Any = None, known: Friction | None = None) -> Any:
     """The law that is given to a case, by itself or by its numbers; known: the law of the case that this one varies.
 
     `dataclasses.replace` hands over law and numbers as they stand in the case but for what it changes.
     """
-    given = {"mu_0": mu_0, "tau_0": tau_0}
-    usual = {"mu_0": None, "tau_0": 0.0} if known is None else {name: getattr(known, name) for name in given}
+    given, usual = {"mu_0": mu_0, "tau_0": tau_0, "mu_s": mu_s}, {"mu_0": None, "tau_0": 0.0, "mu_s": None}
+    if known is not None:
+        usual = {"mu_0": known.mu_0, "tau_0": known.tau_0, "mu_s": static_of(known)}
     changed = {name: value for name, value in given.items() if value is not usual[name] and value != usual[name]}
     if known is not None and friction is known:
         return known.varied(**changed) if changed else known
     if friction is None:
         if mu_0 is None:
             raise TypeError("friction is missing: give mu_0, or a law such as friction=mdr.Coulomb(mu_0)")
-        return of_numbers(mu_0, tau_0)
+        return of_numbers(mu_0, tau_0, mu_s)
     if changed:
         names = " and ".join(changed)
         raise ValueError(f"{names} and friction say the same: give {names}, or the law {type(friction).__name__} alone")
     return friction
+
+
+def static_of(law: Friction) -> float:
+    """Friction over the normal force up to which a point at rest stays there [-]."""
+    return float(getattr(law, "mu_s", law.mu_0))
 
 
 def named_full(full: float, mu_0: float) -> str:

@@ -25,6 +25,7 @@ class InMotion:
     shake: Shake | None
     mu_0: float  #: share of the normal force that friction bears in slip [-], of the law
     tau_0: float  #: shear strength besides [Pa], of the law
+    mu_s: float  #: share of the normal force up to which a point at rest stays there [-], of the law
 
     @property
     def repeats(self) -> tuple[int, int]:

@@ -108,12 +108,13 @@ def one_name(path: str) -> str:
 
 def fields_at(slot: str, part: Any) -> list[str]:
     """Paths of the fields that can be set in a part of a case; those of a law of friction stand without their slot."""
-    return [field if slot == "friction" else f"{slot}.{field}" for field in set_in(part)]
+    names = part.numbers if isinstance(part, Friction) else fields_of(part)
+    return [field if slot == "friction" else f"{slot}.{field}" for field in names]
 
 
 def set_in(part: Any) -> tuple[str, ...]:
-    """Names of the fields that can be set in a part of a case."""
-    return part.numbers if isinstance(part, Friction) else fields_of(part)
+    """Names of all that can be set in a part of a case; of a law of friction also what makes another law of it."""
+    return part.taken if isinstance(part, Friction) else fields_of(part)
 
 
 def paths_of(case: SlidingContact) -> list[str]:

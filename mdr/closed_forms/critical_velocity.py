@@ -80,6 +80,11 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     critical velocity, and v_c is infinite. On a dashpot it is back, known by the full-slip condition alone, which is
     answered then: it knows depth, relaxation time and amplitude.
 
+    Where friction falls, mu_s > mu_k, mu_0 is mu_k: springs that keep contact do not know mu_s. Just below v_c friction
+    is above that of sliding, and on an elastic material under a rigid pull it falls there by a jump
+    (`mdr.laws.falling_friction`). Springs that touch anew stick up to a higher velocity, which
+    `full_slip_critical_velocity` has.
+
     Examples
     --------
     >>> import mdr
@@ -105,10 +110,8 @@ def critical_velocity(case: SlidingContact, direction: int = 1) -> float:
 
 
 def _knows_full_slip_alone(case: SlidingContact) -> bool:
-    """Whether the condition of full slip is left alone: where a shear strength has an edge that moves, or friction
-    falls.
-    """
-    return case.friction.stick > 1 or (case.friction.needs_area and resolved(case).strength_moves)
+    """Whether a shear strength leaves the condition of full slip alone: where its edge moves."""
+    return case.friction.needs_area and resolved(case).strength_moves
 
 
 def velocity_scale(case: SlidingContact) -> float:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import least_of
-from mdr.case.domain import ALIKE, domain_of, holds_for
+from mdr.case.domain import ELASTIC, RIGID, UNSHAKEN, domain_of, holds_for, where_it_falls
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.held_body import CLOSE, held_forward
 from mdr.closed_forms.shaken_pull import CLOSED_FORM, ShakenPull, average_friction
@@ -30,11 +30,13 @@ from mdr.normal.resolved import resolved
 from mdr.tools.arrays import SAME
 
 
-@holds_for(ALIKE, instead="slide(case, v_0) at a slow pull")
+@holds_for(*where_it_falls(RIGID, ELASTIC, UNSHAKEN), instead="slide(case, v_0) at a slow pull")
 def static_cof(case: SlidingContact) -> float:
     """Coefficient of friction [-] in the limit v_0 -> 0: mu_0 min F_N/mean F_N over the period.
 
-    With a shear strength of the face it is (mu_0 min F_N + tau_0 pi min a²)/mean F_N, a the radius of contact.
+    With a shear strength of the face it is (mu_0 min F_N + tau_0 pi min a²)/mean F_N, a the radius of contact. Where
+    friction falls it is (mu_s + mu_k)/2 min F_N/mean F_N on an elastic material under a rigid pull: in each minimum of
+    the load that it comes to, a spring goes from mu_s to mu_k of it, and back on a line in many periods.
 
     Parameters
     ----------
@@ -53,7 +55,8 @@ def static_cof(case: SlidingContact) -> float:
         For what is no SlidingContact.
     ValueError
         For a contact that is shaken in the plane on a material with arms, or under a spring pull that does not hold it
-        or is not soft beside the contact, where no closed form is known: ask `cof_curve`, or `blocked_cof`.
+        or is not soft beside the contact, where no closed form is known: ask `cof_curve`, or `blocked_cof`. Where
+        friction falls, for any other contact than an elastic one under a rigid pull that nothing shakes.
 
     Notes
     -----
@@ -88,7 +91,7 @@ def static_cof(case: SlidingContact) -> float:
     elif case.material.contact_arms:
         least = max(least_of(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
-        least = float(case.indenter.force(kept, case.material.E_star))
+        least = float(case.indenter.force(kept, case.material.E_star)) * (1 + case.friction.stick) / 2
     a = float(case.indenter.contact_radius(kept)) if case.friction.needs_area and case.keeps_contact else 0.0
     return float(case.friction.full(least, a)) / mean_normal_force(case)
 

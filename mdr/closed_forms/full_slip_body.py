@@ -13,6 +13,14 @@ there it bends like a power, or jumps (a punch on dashpots). The period is cut t
 towards each cut. In every panel the body is solved by Gauss-Legendre collocation, which neither damps nor excites its
 free oscillation; the panels are chained to a map over the period, whose fixed point is the periodic motion. A rigid
 pull needs none of this: the velocity is the greatest of a harmonic sum, at its turns and at the ends of the contact.
+
+Where friction falls, mu_0 is mu_k, and a spring that touches anew sticks first if its force would grow to less than
+mu_s f_z in stick. In full slip its end is at mu_k kappa s, in flight too. So it slips at once if
+
+    v_0 - y' - mu_k kappa s' > mu_s kappa (u_z' - s'),
+
+s' the rate of the free surface before the touch, 0 of an elastic material and -s/tau of a Kelvin material. The body
+moves as before, as nothing sticks. Another motion may go on beside this one, in which a body sticks and slips.
 """
 
 from __future__ import annotations
@@ -28,7 +36,7 @@ from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
 from mdr.case.depth_cycle import harmonic_sum, stick_limit, turns
-from mdr.case.domain import FULL_SLIP, holds_for
+from mdr.case.domain import NO_ARMS, NO_STRENGTH, holds_for, where_it_falls
 from mdr.case.pull import Pull
 from mdr.closed_forms.full_slip_face import greatest_rate
 from mdr.normal.followed_force import N_STEPS
@@ -45,11 +53,12 @@ from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, SAME, Array
 
 N_NODES = 20  #: Gauss points of a panel: half a wave on it is exact to rounding
+BESIDE = 1e-5  #: phase around which a contact is looked at for whether it grows
 SHRINK = 0.3  #: of neighbouring panels towards a cut: 20 nodes leave 3.4**-20 = 2e-11 of a power that begins there
 MISSED = SHRINK**N_NODES  #: of the whole: no panel beside a cut need be smaller, and no smaller harmonic counts
 
 
-@holds_for(FULL_SLIP, of=resolved, instead="slide(case, v_0) at a few velocities")
+@holds_for(*where_it_falls(NO_STRENGTH, NO_ARMS), instead="critical_velocity, or slide(case, v_0)")
 def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> float:
     """Velocity [m/s] above which no spring ever sticks, for any amplitude and shape.
 
@@ -73,13 +82,14 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         `mdr.laws.full_slip_of_half_space`). Infinite too for a body without mass and damper whose
         contact is lost and touches again with a jump of F_N' (a Kelvin material, unless the tip is sharp): for an
         instant its velocity has no bound.
+        Where friction falls, springs that touch anew stick longer, up to mu_s.
 
     Raises
     ------
     TypeError
         For what is no SlidingContact.
     ValueError
-        For another direction.
+        For another direction, and for arms where friction falls.
 
     Notes
     -----
@@ -109,7 +119,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     >>> print(f"{mdr.full_slip_critical_velocity(case):.3g} m/s")
     0.000516 m/s
     """
-    case = case.pulled(direction)
+    case = resolved(case).pulled(direction)
     if case.moves_across or not np.isfinite(case.way).all() or case.always_sticks:
         return np.inf
     strengthened = case.strength_moves
@@ -117,7 +127,8 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     touches, leaves = contact_ends(case)
     if case.pull.is_rigid and strengthened:
         return greatest_rate(case, lambda phase: harmonic_sum(rates, phase))
-    if case.pull.is_rigid:
+    touch_anew = case.friction.stick > 1 and case.edge_moves
+    if case.pull.is_rigid and not touch_anew:
         phase = np.append(turns(rates), 0.0)  # a sum that is still has no turns
         phase = np.concatenate([phase[_in_contact(phase, touches, leaves)], touches, leaves])
         return float(harmonic_sum(rates, phase).max())
@@ -126,7 +137,7 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
     none = SAME * float(np.abs(panels.force).max()) + case.cycle.missing * panels.rest
     if _velocity_unbounded_at_touch(case) or (resonant and abs(panels.harmonic(panels.force, resonant)) > none):
         return np.inf
-    y_dot = _velocity(case, panels)
+    y_dot = np.zeros(panels.phase.shape) if case.pull.is_rigid else _velocity(case, panels)
     if resonant:  # the force does not contain it, so neither does the periodic motion
         y_dot -= 2 * (panels.harmonic(y_dot, resonant) * np.exp(1j * resonant * panels.phase)).real
     if strengthened:
@@ -137,8 +148,28 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         return greatest_rate(
             case, lambda phase: harmonic_sum(rates, phase) - y_rate(begin + np.mod(phase - begin, 2 * np.pi))
         )
-    touching = _in_contact(0.5 * (panels.low + panels.high), touches, leaves)
-    return _greatest((harmonic_sum(rates, panels.phase) - y_dot)[touching])
+    slips, middle = harmonic_sum(rates, panels.phase) - y_dot, 0.5 * (panels.low + panels.high)
+    v_c = _greatest(slips[_in_contact(middle, touches, leaves)])
+    if not touch_anew:
+        return v_c
+    slips += _closing_in(case, panels.phase)
+    at_once = _at_begin(slips[_grows(case, panels.low)])  # of a flat face, which touches at an instant
+    return max(v_c, _greatest(slips[_grows(case, middle)]), float(at_once.max(initial=-np.inf)))
+
+
+def _closing_in(case: SlidingContact, phase: Array) -> Array:
+    """(mu_s - mu_k) kappa (u_z' - s') [m/s] at phases of a spring that touches there."""
+    cycle, T = case.cycle, case.T
+    rate = cycle.rate(phase) + ((cycle.z(phase) - edge_of(case).gap(phase)) / T if T else 0.0)
+    return (
+        (case.friction.stick - 1) * stick_limit(case.mu_0, cycle.unit, case.omega, case.material.mindlin_ratio) * rate
+    )
+
+
+def _grows(case: SlidingContact, phase: Array) -> NDArray[np.bool_]:
+    """Whether the contact grows at phases (n,), just before or just after."""
+    before, now, after = contact_radius(case, phase + np.array([[-BESIDE], [0.0], [BESIDE]]))
+    return np.asarray((now > before) | (after > now))
 
 
 def _slip_rates(case: SlidingContact) -> NDArray[np.complex128]:
@@ -307,14 +338,21 @@ def _resonant_harmonic(pull: Pull, omega: float) -> int:
 def _velocity_unbounded_at_touch(case: SlidingContact) -> bool:
     """True if a body without mass and damper has unbounded velocity as dashpots touch: a(d) rises faster than d."""
     m, c_x, _ = case.pull.coefficients
-    if m > 0 or c_x > 0 or case.T == 0 or case.keeps_contact:
+    if case.pull.is_rigid or m > 0 or c_x > 0 or case.T == 0 or case.keeps_contact:
         return False
     low, high = (float(case.indenter.contact_radius(share * case.u_z_max)) for share in (1e-9, 1e-8))
     return bool(np.log10(high / low) < 0.999)
 
 
+def _at_begin(values: Array) -> Array:
+    """Values at the start of panels of the polynomials through the nodes."""
+    return np.asarray(values @ _series().T @ (-1.0) ** np.arange(N_NODES))
+
+
 def _greatest(values: Array) -> float:
-    """Greatest value in all panels, ends included, of the polynomials through the nodes."""
+    """Greatest value in all panels, ends included, of the polynomials through the nodes; -inf without panels."""
+    if not len(values):
+        return -np.inf
     series = values @ _series().T
     x = np.cos(np.linspace(np.pi, 0, 4 * N_NODES))
     dense = series @ legendre.legvander(x, N_NODES - 1).T

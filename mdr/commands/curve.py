@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import mdr
+from mdr.case.domain import domain_of
 from mdr.closed_forms.critical_velocity import POINTS, UP_TO, velocity_scale
 from mdr.commands.arguments import OF_V_C, Asked, add_accuracy, no_scale, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked, text_of, values_of
@@ -69,6 +70,8 @@ def _velocities(args: argparse.Namespace, case: mdr.SlidingContact) -> list[floa
     forward, back = (asked.number * (of(one) if asked.of else 1) for one in (case, case.mirrored))
     found = np.linspace(-back if case.is_shaken else 0.0, forward, args.points or POINTS)
     found[np.abs(found) < EXACT * forward] = 0.0  # the limit at rest, and not a pull of a rounding
+    if case not in domain_of(mdr.static_cof):
+        found = found[found != 0]
     return list(map(float, found))
 
 
@@ -81,7 +84,8 @@ def _v_c_or_scale(case: mdr.SlidingContact) -> float:
 def _lines(curve: mdr.CofCurve, head: str) -> Iterator[str]:
     """The curve as a table, below what its head says of v_c."""
     static = "static COF" if curve.v_c_back is None else "COF as v_0 -> +0"
-    yield f"{head}, mu_0 = {curve.mu_0:.6g}, {static} = {curve.static_cof:.6g}"
+    known = "not known" if curve.static_cof is None else f"{curve.static_cof:.6g}"
+    yield f"{head}, mu_0 = {curve.mu_0:.6g}, {static} = {known}"
     cof_y = [""] * curve.v_0.size if curve.cof_y is None else [f"{round(one, 6) + 0.0:17.6f}" for one in curve.cof_y]
     across = "" if curve.cof_y is None else "  COF across"
     over = "COF/mu_0" if curve.full_cof == curve.mu_0 else "share"

@@ -5,13 +5,11 @@ sticks and slips over a period as a picture and a CSV file.
 from __future__ import annotations
 
 import argparse
-from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import mdr
-from mdr.case.domain import OutsideDomain
 from mdr.commands.arguments import add_accuracy, add_velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, complain, picked
 from mdr.commands.velocity import v_c_text
@@ -49,11 +47,8 @@ def run(args: argparse.Namespace, case: mdr.SlidingContact) -> int:
         require_free([args.animate])
     knobs = {"n_springs": args.n_springs, "steps_per_period": args.steps, "accuracy": args.accuracy}
     found = mdr.slide(case, v_0, record=1, **knobs)
-    spent, v_c = found.energy_balance, None
-    with suppress(OutsideDomain):
-        v_c = mdr.critical_velocity(case, -1 if v_0 < 0 else 1)
-    told = "v_c has no closed form here" if v_c is None else v_c_text(case, v_c)
-    text = f"{told}, mu_0 = {case.mu_0:.6g}\n{found}"
+    v_c, spent = mdr.critical_velocity(case, -1 if v_0 < 0 else 1), found.energy_balance
+    text = f"{v_c_text(case, v_c)}, mu_0 = {case.mu_0:.6g}\n{found}"
     values = picked(
         found, "v_0", "mu_0", "full_cof", "cof", "share", "cof_y", "cof_error", "settled", "kind", "why", "stick_share",
         "least_slip", "mean_F_x", "mean_F_y", "mean_F_z", "power", "n_springs", "steps_per_period", "n_periods",

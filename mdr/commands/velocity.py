@@ -64,6 +64,8 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         ("v_c", mdr.critical_velocity, *forward),
         ("full_slip", mdr.full_slip_critical_velocity, "full slip", full),
     ):
+        if solve is mdr.full_slip_critical_velocity and case not in domain_of(solve):
+            continue
         told.append(told_velocity(key, solve(case), name, meaning))
         if case.is_shaken:
             told.append(told_velocity(f"{key}_back", solve(case, -1), "other way", "the same, pulled the other way"))
@@ -73,9 +75,10 @@ def _velocities(case: mdr.SlidingContact) -> list[Told]:
         told.append(told_velocity("v_c_rigid", mdr.critical_velocity(rigid), "rigid", meaning))
     if not case.is_shaken:
         known = mdr.resolved(case)
-        full = f"; in full slip {full_cof(known):.6g}" if not case.friction.is_coulomb else ""
+        full = f"; in full slip {full_cof(known):.6g}" if case.friction.needs_area else ""
         rest = f"friction as v_0 -> 0; mu_0 = {case.mu_0:.6g}{full}"
-        told.append(told_number("static_cof", mdr.static_cof(case), "static COF", "-", rest))
+        if case in domain_of(mdr.static_cof):
+            told.append(told_number("static_cof", mdr.static_cof(case), "static COF", "-", rest))
         if known in domain_of(mdr.laws.velocity_of_share):
             back, most = mdr.laws.velocity_of_share(known, 1 - NEARLY), f"{100 - 100 * NEARLY:g} %"
             half_space = mdr.laws.velocity_of_share(known, 1 - NEARLY, half_space=True)

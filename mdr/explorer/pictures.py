@@ -123,7 +123,8 @@ def at_once(state: State) -> Picture:
     picture = replace(picture, load=mean_normal_force(case))
     if case.is_shaken:
         return picture
-    picture = replace(picture, static=static_cof(case))
+    if case in domain_of(static_cof):
+        picture = replace(picture, static=static_cof(case))
     pulled_rigidly = replace(case, pull=RigidPull())
     if pulled_rigidly not in domain_of(average_friction):
         return picture
@@ -167,7 +168,8 @@ def velocities_of(state: State) -> Array:
     forward, back = (min(max(UP_TO * one, 1.1 * abs(state.v_0)), DECADE * one) for one in scales)
     share = np.linspace(0, 1, POINTS // 2 + 1)  # half as fine as elsewhere, to be there at once
     own = [state.v_0] if -back <= state.v_0 <= forward else []
+    share = share if state.case in domain_of(static_cof) else share[1:]  # the limit at rest may not be known
     if not state.case.is_shaken:
         return np.unique([*(share * forward), *own])
-    share[0] = share[1] ** 2  # beside zero, where friction of a shaken contact jumps
+    share[0] = share[0] or share[1] ** 2  # beside zero, where friction of a shaken contact jumps
     return np.unique([*(-back * share), *(forward * share), *own])

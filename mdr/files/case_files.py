@@ -3,7 +3,7 @@
 Tables and keys carry the names of the records and their fields, in SI. A key left out takes the record's
 default, and no [pull] is a rigid pull:
 
-    mu_0 = 0.5                                # friction; beside it tau_0, a shear strength [Pa]
+    mu_0 = 0.5                                # friction; beside it tau_0, a shear strength [Pa], or mu_s
     [indenter]
     shape = "Paraboloid"                      # any record of mdr.indenters
     R = 5e-3
@@ -27,7 +27,7 @@ keys F_z0, dF_z, m_z is given, a PeriodicMotion where cos or sin is, and else a 
 load alone is a ConstantLoad, u_z0 alone a ConstantDepth.
 [shake] is left out where nothing moves in the plane besides the pull; without a name it is an InPlaneMotion where a
 list of amplitudes is given, and else an InPlaneOscillation.
-[friction], with the name kind = "ShearStrength", may stand in the place of mu_0 and tau_0 above the tables.
+[friction], with the name kind = "ShearStrength", may stand in the place of mu_0, tau_0 and mu_s above the tables.
 A Prony material has arms = [[E_j, tau_j], ...]. With E_0 or G_0, the instantaneous modulus, they are shares of it.
 
 In the place of a field a file may give what a rig is set to (`mdr.case.paths`): frequency [Hz], load [N], tan_delta,
@@ -141,6 +141,12 @@ def read_tables(content: Mapping[str, Any], beside: Sequence[str] = ()) -> Table
 
 def _law(numbers: Mapping[str, Any], tables: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
     """The law of friction, of a table, or of the numbers above the tables."""
+    if {"mu_0", "mu_k"} <= set(numbers):
+        raise CaseFileError("mu_0 and mu_k say the same: give one of them")
+    if {"mu_s", "tau_0"} <= set(numbers):
+        raise CaseFileError(friction.NO_LAW)
+    if "mu_s" in numbers:
+        numbers = {"mu_k" if key == "mu_0" else key: value for key, value in numbers.items()}
     if "friction" not in tables:
         return _TABLES["friction"].described(numbers)
     if numbers:

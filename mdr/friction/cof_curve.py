@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import ALIKE, Domain, domain_of
+from mdr.case.domain import domain_of
 from mdr.case.friction import named_full
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.critical_velocity import critical_velocity
@@ -27,7 +27,7 @@ from mdr.march.periodic.steady import BUDGET, Resolution, accuracy_of
 from mdr.march.periodic.theorems import disordered
 from mdr.march.result.refinement import resolution_of
 from mdr.march.result.run import finish, friction_of
-from mdr.march.result.slide import SLOWEST, runs
+from mdr.march.result.slide import LAW, SLOWEST, runs
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
 from mdr.tools.arrays import EXACT, Array
@@ -60,12 +60,13 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
     v_c: float  #: Eq. (15) for the case, the scale of the curve [m/s]
     mu_0: float  #: local coefficient of friction [-]
     full_cof: float  #: COF of full slip [-]: mu_0, or what a shear strength of the face makes of it
-    static_cof: float  #: limit v_0 -> +0 [-]
+    static_cof: float | None  #: limit v_0 -> +0 [-]; None where friction falls and no closed form has it
     why: tuple[str, ...] = ()  #: what the runs had to say, "" where nothing
     v_c_back: float | None = None  #: the same as v_c of the pull the other way [m/s], positive; None if nothing shakes
     #: limit v_0 -> -0 [-] where both ways are asked for, and rest or in closed form
     static_cof_back: float | None = None
     cof_y: Array | None = None  #: mean F_y, across the pull, over mean F_z [-]; None where nothing moves across
+    falls: bool = False  #: whether friction falls as springs are let go, so that it may jump, at v_c above all
 
     @property
     def share(self) -> Array:
@@ -84,7 +85,7 @@ class CofCurve(Summarised, Tabled, ArrayRecord):
                 ("error", span(self.cof_error), "bound on the numerical error of the COF"),
                 ("settled", f"{settled} of {n}", ""),
                 *(("why", why, "") for why in list(reasons)[:MOST_TOLD]),
-                ("at rest", number(self.static_cof), "COF as v_0 -> +0"),
+                *([] if self.static_cof is None else [("at rest", number(self.static_cof), "COF as v_0 -> +0")]),
                 ("v_c", number(self.v_c, "m/s"), "critical velocity in closed form"),
                 *back,
             ],
@@ -180,9 +181,10 @@ def cof_curve(
     v_0 = _velocities(case, v_0)
     asked = _Asked(case, v_0, method, accuracy, n_springs=n_springs, steps_per_period=steps_per_period)
     columns, back = asked.columns(asked.and_rest), None
-    static = float(columns.cof[np.argmax(asked.and_rest == 0)])
+    at_rest = columns.cof[asked.and_rest == 0]
+    static = float(at_rest[0]) if at_rest.size else None
     if np.any(v_0 < 0) and case.is_alike_both_ways:
-        back = -static
+        back = None if static is None else -static
     elif np.any(v_0 < 0) and (asked.is_closed or np.any(v_0 == 0)):  # slow runs take long
         back = -float(_at_rest(case.mirrored, asked.friction)[0])
     known = columns.first(v_0.size)
@@ -195,6 +197,7 @@ def cof_curve(
         static_cof=static,
         v_c_back=critical_velocity(case, -1) if case.is_shaken else None,
         static_cof_back=back,
+        falls=case.friction.stick > 1,
     )
 
 
@@ -228,9 +231,7 @@ class _Asked:
         closely: bool = True,
         **knobs: Any,
     ) -> None:
-        # a curve rests on bounds and on an order of velocities that friction which falls does not have
-        case = Domain((ALIKE,), "slide(case, v_0) at each velocity").seen(case, "cof_curve")
-        self.case, self.v_0, accuracy = case, v_0, accuracy_of(accuracy)
+        self.case, self.v_0, accuracy = LAW.seen(case, "cof_curve"), v_0, accuracy_of(accuracy)
         require_knobs(**knobs)
         if method not in (None, "march"):
             raise ValueError(f'method must be None or "march", got {method!r}')
@@ -241,8 +242,10 @@ class _Asked:
 
     @property
     def and_rest(self) -> Array:
-        """The same with zero, after them unless it is among them."""
-        return self.counted if np.any(self.counted == 0) else np.append(self.counted, 0.0)
+        """The same with zero, after them unless it is among them, or its limit is not known."""
+        if np.any(self.counted == 0) or self.case not in domain_of(static_cof):
+            return self.counted
+        return np.append(self.counted, 0.0)
 
     @property
     def rest_judges(self) -> bool:
@@ -255,7 +258,7 @@ class _Asked:
         if (slower := np.flatnonzero(self.counted != self.v_0)).size:
             known.cof[slower] = np.copysign(known.cof[slower], self.v_0[slower])
             known.cof_error[slower] += _as_slow(self.case, known.cof[slower], self.is_closed)
-        if not self.is_closed:
+        if not self.is_closed and self.case.friction.stick == 1:
             judged = known.settled & ((v_0 != 0) | self.rest_judges)
             wrong = disordered(v_0, known.cof, known.cof_error, judged)
             known.why[wrong] = (
@@ -358,6 +361,8 @@ def _at_rest(case: SlidingContact, friction: Friction) -> Point:
     """The limit of a pull ever slower forward: of a body that is held, by the forces that hold it, unless runs know
     more.
     """
+    if case.friction.stick > 1:  # known in closed form, or refused
+        return static_cof(case), EXACT * full_cof(case), True, 1.0, "", 0.0
     if (held := held_forward(case)) is None:
         return _slow(case, friction, is_held=False)
     known = held.cof, held.error, True, 1.0, "", held.cof_y

@@ -13,13 +13,14 @@ import numpy as np
 
 from mdr import half_space
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import ALIKE, OutsideDomain, domain_of, holds_for
+from mdr.case.domain import ELASTIC, FLAT, HARMONIC, RIGID, UNSHAKEN, Domain, OutsideDomain, domain_of
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub
 from mdr.closed_forms.critical_velocity import NEARLY, critical_velocity, formula_of
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.laws.across import full_across, stiffened_by_coupling
+from mdr.closed_forms.laws.falling import falling_friction
 from mdr.closed_forms.laws.strength import full_slip_of_half_space, velocity_of_share
 from mdr.friction.measured_velocity import (
     ACROSS,
@@ -40,6 +41,8 @@ from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed, with_error
 
+JUMPS = Domain((RIGID, ELASTIC, UNSHAKEN, HARMONIC, FLAT), instead="slide")  #: where falling_friction is that of a case
+SAMPLES = 200  #: velocities up to v_c at which it is asked for
 STRONG = 0.02  #: of what springs leave out (beta, lambda, static friction over mu_0), from which it is said
 
 
@@ -134,7 +137,6 @@ class Verdict(Printed):
 
 
 @offering
-@holds_for(ALIKE, instead="slide(case, v_0) at each velocity")
 def verdict(
     case: SlidingContact,
     *,
@@ -258,6 +260,8 @@ def _judged(case: SlidingContact, within: float, limit_s: float | None, accuracy
         reasons.append(found.why)
     if case.strength_moves:
         reasons.append(_depends_on(case))
+    if case.friction.stick > 1:
+        reasons.append(_overshoot(case))
     why = "; ".join([*reasons, *_left_out(case)])
     return Verdict(eq_15, full, found.v_c, deviation, holds, why, found, formula_of(case), within, least)
 
@@ -277,6 +281,18 @@ def _depends_on(case: SlidingContact) -> str:
         return f"{said}; a half-space slips all over from {full_slip_of_half_space(case):.3g} m/s on"
     except OutsideDomain:
         return said
+
+
+def _overshoot(case: SlidingContact) -> str:
+    """How far friction that falls is above that of sliding."""
+    said = "just below it friction is above that of sliding, as springs stick up to mu_s before they slip at mu_k"
+    if case not in JUMPS:
+        return said
+    v = np.append(np.arange(1, SAMPLES) / SAMPLES, 1 - SAME)
+    shares = [falling_friction(one, case.alpha, case.friction.stick).share for one in v]
+    most = int(np.argmax(shares))
+    where = "there" if most == v.size - 1 else f"{shares[most] - 1:.3g} at {v[most]:.2g} v_c"
+    return f"{said}: by {shares[-1] - 1:.3g} of it, and it falls by a jump there; the most is {where}"
 
 
 def _at_the_edge(case: SlidingContact) -> str:

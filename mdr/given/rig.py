@@ -36,6 +36,7 @@ def rig(
     mu_0: float | None = None,
     *,
     tau_0: float = 0.0,
+    mu_s: float | None = None,
     friction: Friction | None = None,
     frequency: float,
     load: float | None = None,
@@ -65,8 +66,10 @@ def rig(
         Coefficient of friction without vibration [-]; give it or `friction`.
     tau_0 : float
         Shear strength of the face besides [Pa].
+    mu_s : float, optional
+        Static coefficient of friction [-], where it is above mu_0; see `StaticKinetic`.
     friction : Friction, optional
-        The law of friction, in the place of mu_0 and tau_0.
+        The law of friction, in the place of mu_0, tau_0 and mu_s.
     frequency : float
         Frequency of the vibration [Hz], not the angular one.
     load, load_grams : float
@@ -177,7 +180,7 @@ def rig(
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
         motion = NormalOscillation(0.0, du_z, omega)
     parts = {
-        "indenter": indenter, "material": material, "friction": law_of(friction, mu_0, tau_0), "oscillation": motion,
+        "indenter": indenter, "material": material, "friction": law_of(friction, mu_0, tau_0, mu_s), "oscillation": motion,
         "pull": pull, "shake": shake,
     }  # fmt: skip
     settings = {"load": F_z0, **held}

@@ -73,7 +73,7 @@ def plot_curve(
         if not both:
             ax.set_xlim(left=-0.015 * ax.get_xlim()[1])
         settled, across = (np.all(curve.settled) for curve in curves), (_across(curve) is not None for curve in curves)
-        static = [] if both else [curve.static_cof / mu for curve, (_, mu) in zip(curves, scales, strict=True)]
+        static = [] if both else [_at_rest(curve) / mu for curve, (_, mu) in zip(curves, scales, strict=True)]
         _curve_legend(ax, static, all(settled), any(across))
     return ax
 
@@ -196,8 +196,8 @@ def _draw_curve(ax: Axes, curve: Any, scale: tuple[float, float], colour: Any, l
     v, mu = np.asarray(curve.v_0) / scale[0], np.asarray(curve.cof) / scale[1]
     error = np.nan_to_num(np.asarray(curve.cof_error) / scale[1], posinf=0.0)
     settled = np.asarray(curve.settled, dtype=bool)
-    static = curve.static_cof / scale[1]
-    ax.plot(*_line(curve, v, mu, scale[1]), color=colour, label=label, zorder=2)
+    static = _at_rest(curve) / scale[1]
+    ax.plot(*_line(curve, v, mu, scale), color=colour, label=label, zorder=2)
     if (cof_y := _across(curve)) is not None:
         order = np.argsort(v)
         for way in (order[v[order] < 0], order[v[order] >= 0]):
@@ -213,19 +213,31 @@ def _draw_curve(ax: Axes, curve: Any, scale: tuple[float, float], colour: Any, l
         ax.plot([0.0, reach], [static, static], color=colour, linewidth=1.2, linestyle="--", zorder=1)
 
 
-def _line(curve: Any, v: NDArray[Any], mu: NDArray[Any], scale: float) -> tuple[NDArray[Any], NDArray[Any]]:
+def _at_rest(curve: Any) -> float:
+    """The limit at rest; nan where it is not known."""
+    return np.nan if curve.static_cof is None else float(curve.static_cof)
+
+
+def _line(
+    curve: Any, v: NDArray[Any], mu: NDArray[Any], scale: tuple[float, float]
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """A smooth line through the points; at rest, of a curve of both ways, upright from one limit to the other.
 
-    Where the limit of a backward pull was not computed the line is broken there: friction may jump.
+    Where the limit of a backward pull was not computed the line is broken there: friction may jump. Of friction that
+    falls it is straight from point to point, and broken at v_c, where it jumps.
     """
     order = np.argsort(v)
     v, mu = v[order], mu[order]
     back, forward = v < 0, v > 0
+    if getattr(curve, "falls", False):
+        ends = [way * v_c / scale[0] for way, v_c in ((1, curve.v_c), (-1, curve.v_c_back)) if v_c is not None]
+        at = np.searchsorted(v, sorted(ends))
+        return np.insert(v, at, np.nan), np.insert(mu, at, np.nan)
     if not (back.any() and forward.any()):
         return smooth(v, mu)
-    low = np.nan if curve.static_cof_back is None else curve.static_cof_back / scale
+    low = np.nan if curve.static_cof_back is None else curve.static_cof_back / scale[1]
     backward = smooth(np.append(v[back], 0.0), np.append(mu[back], low))
-    onward = smooth(np.append(0.0, v[forward]), np.append(curve.static_cof / scale, mu[forward]))
+    onward = smooth(np.append(0.0, v[forward]), np.append(_at_rest(curve) / scale[1], mu[forward]))
     at, line = (np.concatenate(pair) for pair in zip(backward, onward, strict=True))
     return at, line
 

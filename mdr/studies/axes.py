@@ -211,9 +211,12 @@ def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
 
 def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     """Refuse a path that no case of the study has."""
-    of_parts = dict.fromkeys(one for slot, has in parts.items() for part in has for one in fields_at(slot, part))
-    if path in (*VELOCITIES, *parts) or any(field in of_parts for field in fields_set(path)):
+    sets = [slot_of(one) for one in fields_set(path)]
+    if path in (*VELOCITIES, *parts) or any(
+        field in set_in(part) for slot, field in sets for part in parts.get(slot, ())
+    ):
         return
+    of_parts = dict.fromkeys(one for slot, has in parts.items() for part in has for one in fields_at(slot, part))
     slot, field = slot_of(fields_set(path)[0 if path in GROUPS else -1])
     names = sorted({type(part).__name__ for part in parts.get(slot, ())}) or [f"a case without {slot}"]
     if path in GROUPS or path in RIG:

@@ -6,6 +6,8 @@ import sys
 import warnings
 from types import FrameType
 
+WRAPPERS = ("mdr.tools.memoise", "mdr.tools.keywords", "mdr.case.domain")  #: where decorators stand
+
 
 class PlausibilityWarning(UserWarning):
     """A contact is legal but unlikely: a unit may be wrong, or the theory be left. Silence it by its class."""
@@ -21,14 +23,14 @@ def warn_outside(doubt: str) -> None:
 
 def asked_from_outside() -> bool:
     """True if user code, not mdr, called the current public function."""
-    public = _past_wrappers(sys._getframe(3))
-    outside = _past_wrappers(public.f_back) if public is not None and is_ours(public) else public
+    public = sys._getframe(3)
+    outside = _past_wrappers(public.f_back) if is_ours(public) else public
     return outside is not None and not is_ours(outside)
 
 
 def _past_wrappers(frame: FrameType | None) -> FrameType | None:
     """The frame, or the first before it that is no decorator's."""
-    while frame is not None and frame.f_globals.get("__name__") in ("mdr.tools.memoise", "mdr.tools.keywords"):
+    while frame is not None and frame.f_globals.get("__name__") in WRAPPERS:
         frame = frame.f_back
     return frame
 

@@ -223,13 +223,13 @@ def test_what_falling_friction_lacks_is_left_out_or_refused(tmp_path, capsys):
     path = tmp_path / "falls.toml"
     path.write_text(mdr.write_case(case), encoding="utf-8")
     assert main(["run", str(path), "--v-0", "5mm/s", "--n-springs", "32", "--steps", "64"]) == 0
-    assert "v_c has no closed form here, mu_0 = 0.5" in capsys.readouterr().out
+    assert "by Eq. (1), mu_0 = 0.5" in capsys.readouterr().out
     (tmp_path / "way.csv").write_text("t [s],u_x [m],u_z [m]\n0,0,1e-5\n1,1e-5,1e-5\n")
     for command in (
         ["export", str(path), "-o", str(tmp_path / "one.h")],
         ["record", str(path), str(tmp_path / "way.csv")],
     ):
-        assert main(command) == 1
+        assert main(command) != 0
         assert "takes Coulomb's friction" in capsys.readouterr().err
 
 

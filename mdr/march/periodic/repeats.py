@@ -28,6 +28,7 @@ DYING = 1e-4  #: of the friction of full slip, what dies out at most where a sta
 FIRST, MOST = 96, 4096  #: periods between two judgements, at first, and at most where no state comes back
 BLOCKS = 16  #: of the second half of a run
 SIGMAS = 3.0  #: standard deviations of a mean over blocks that its error is
+NEAR = 4.0  #: times the error of a rate on a parabola: twice what this and the greatest rate at nodes may be off
 DRAWN = 8.0  #: times a pull has to have gone as far as springs can be stretched, for blocks to be alike
 
 
@@ -75,6 +76,16 @@ def repeated(stepper: Stepper, start: MarchState, pre_sliding: float, most: int 
         why = f"the time limit is over after {cofs.size} periods"
         return Orbit(state, Settling(mean, UNKNOWN, False, "unsettled", why=why))
     return Orbit(state, Settling(mean, min(spread, UNKNOWN), True, "averaged"))
+
+
+def beside_jump(stepper: Stepper) -> bool:
+    """Whether a rigid pull is as fast as springs that slip need it, to within what parabolas miss of their rates: there
+    friction falls by a jump, and a run may be on the wrong side of it.
+    """
+    (z, z_dot, v, x, x_dot), h = stepper.motion, stepper.scaled.drive.h
+    way, rate = z - x.real, z_dot - x_dot.real
+    missed = np.abs(np.diff(way) / h - 0.5 * (rate[1:] + rate[:-1])).max()
+    return stepper.scaled.body.rigid and abs(v - float(rate.max())) < NEAR * missed
 
 
 def _averaged(cofs: Array) -> tuple[float, float]:

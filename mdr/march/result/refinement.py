@@ -28,6 +28,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.body import RESOLVED
 from mdr.march.dynamics.dimensionless import fast_ratio, stopping_rate
+from mdr.march.periodic.repeats import beside_jump
 from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.steady import (
     BUDGET,
@@ -213,12 +214,16 @@ def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
         main = runs.main(resolution, None if finest is None or rigid else MOST_BESIDE)
         if not main.settling.settled:  # finer steps make a state that hardly repeats harder to find
             return finest or replace(main, error=0.0)
+        jumps = runs.case.friction.stick > 1 and beside_jump(main.stepper)
+        if jumps and resolution.free[1] and resolution.steps < MOST_STEPS:
+            resolution = resolution._replace(steps=2 * resolution.steps)
+            continue
         share = resolution.accuracy / 2
         may_be_clear = main.slips_fully and (main.load_error <= share or not any(resolution.free))
-        if may_be_clear and (clear := _clear_of_stick(runs, main)) is not None:
+        if may_be_clear and not jumps and (clear := _clear_of_stick(runs, main)) is not None:
             return clear
         missed = _missed_by(runs, main)
-        error = missed.bound + _of_unresolved(runs, main)
+        error = missed.bound + _of_unresolved(runs, main) + (runs.case.friction.stick - 1 if jumps else 0.0)
         if time_is_over():
             why = "the time limit is over before the runs beside it, which bound cof_error, were done"
             return finest or replace(main.unsettled(why), error=0.0)
