@@ -66,9 +66,10 @@ SIGNATURES = {
     "RigidPull": "",
     "SpringPull": "k_x, m=0.0, c_x=0.0, k_y=None, c_y=None",
     "SlidingContact": "indenter, material, mu_0=None, oscillation=None, pull=RigidPull(), shake=None, tau_0=0.0, "
-    "friction=None",
+    "friction=None, *, mu_s=None",
     "Coulomb": "mu_0",
     "ShearStrength": "mu_0, tau_0",
+    "StaticKinetic": "mu_s, mu_k",
     "partial_slip": "indenter, material, mu_0, u_z0, u_x",
     "critical_velocity": "case, direction=1",
     "full_slip_critical_velocity": "case, direction=1",

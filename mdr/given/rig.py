@@ -180,8 +180,8 @@ def rig(
         du_z = amplitudes.get("depth_amplitude") or amplitudes["acceleration"] / omega**2
         motion = NormalOscillation(0.0, du_z, omega)
     parts = {
-        "indenter": indenter, "material": material, "friction": law_of(friction, mu_0, tau_0, mu_s), "oscillation": motion,
-        "pull": pull, "shake": shake,
+        "indenter": indenter, "material": material, "friction": law_of(friction, mu_0, tau_0, mu_s),
+        "oscillation": motion, "pull": pull, "shake": shake,
     }  # fmt: skip
     settings = {"load": F_z0, **held}
     case = contact_of(parts, settings)

@@ -211,10 +211,8 @@ def _distinct(path: str, values: tuple[Any, ...]) -> tuple[str, ...]:
 
 def _require_path(path: str, parts: Mapping[str, tuple[Any, ...]]) -> None:
     """Refuse a path that no case of the study has."""
-    sets = [slot_of(one) for one in fields_set(path)]
-    if path in (*VELOCITIES, *parts) or any(
-        field in set_in(part) for slot, field in sets for part in parts.get(slot, ())
-    ):
+    sets = [(field, part) for slot, field in map(slot_of, fields_set(path)) for part in parts.get(slot, ())]
+    if path in (*VELOCITIES, *parts) or any(field in set_in(part) for field, part in sets):
         return
     of_parts = dict.fromkeys(one for slot, has in parts.items() for part in has for one in fields_at(slot, part))
     slot, field = slot_of(fields_set(path)[0 if path in GROUPS else -1])

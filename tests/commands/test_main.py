@@ -227,7 +227,7 @@ def test_what_falling_friction_lacks_is_left_out_or_refused(tmp_path, capsys):
     (tmp_path / "way.csv").write_text("t [s],u_x [m],u_z [m]\n0,0,1e-5\n1,1e-5,1e-5\n")
     for command in (
         ["export", str(path), "-o", str(tmp_path / "one.h")],
-        ["record", str(path), str(tmp_path / "way.csv")],
+        ["record", str(tmp_path / "way.csv"), str(path)],
     ):
         assert main(command) != 0
         assert "takes Coulomb's friction" in capsys.readouterr().err
