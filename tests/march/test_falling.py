@@ -134,6 +134,20 @@ def test_stick_slip_of_a_body_next_to_no_vibration(damping, share):
     assert abs(run.share - periods) <= run.cof_error / 0.5 + 2e-4
 
 
+def test_shares_and_energies_are_means_over_the_periods_of_a_state():
+    """A record has each of them; the pull does the same work in all, the vibration not."""
+    case = contact(0.4, 1.5, "punch")
+    run = slide(case, 0.1, n_springs=32, steps_per_period=128, record=2)
+    assert run.periods == 2
+    stuck = (run.state == mdr.State.STICK) * run.f_z
+    assert_allclose(run.stick_share, stuck.sum() / run.f_z.sum(), atol=0.02)
+    halves = (run.state == mdr.State.STICK).reshape(2, -1).mean(axis=1)
+    assert halves[0] != halves[1]
+    balance = run.energy_balance
+    assert_allclose(balance.pull_work, run.mean_F_x * run.v_0 * case.period, rtol=1e-12)
+    assert abs(balance.stored_change) < 1e-12 * balance.lost
+
+
 @pytest.mark.parametrize("material", MATERIALS)
 def test_the_heat_of_the_instant_at_which_springs_are_let_go_closes_the_balance(material):
     for shape in SHAPES:

@@ -161,5 +161,5 @@ def test_the_least_slip_of_a_march_is_that_of_a_close_look(depth_ratio, share, T
     case = contact("paraboloid", depth_ratio, T, 2.0, 1.6, 0.1)
     end = steady(case, share * mdr.full_slip_critical_velocity(case), Resolution(32, 256, "full_slip", True))
     assert end.slips_fully
-    seen = looked_at(end)[1].seen.sums[LEAST_SLIP] / end.scaled.drive.pace(end.stepper.v)
+    seen = looked_at(end)[1][0].seen.sums[LEAST_SLIP] / end.scaled.drive.pace(end.stepper.v)
     assert end.least_slip == pytest.approx(seen, abs=end.scaled.drive.h**2)  # to the parabolas of steps

@@ -162,10 +162,10 @@ def test_a_friction_alone_has_the_digits_of_a_run_and_energies_are_asked_where_t
 
 def test_the_account_of_a_period_is_held_to_its_steps():
     case = contact("cone", 3.0, 0.0)
-    end, account, _ = looked_at(steady(case, 0.4 * case.unit_velocity, Resolution(64, 256, "full_slip", lump=True)))
+    end, (account,), _ = looked_at(steady(case, 0.4 * case.unit_velocity, Resolution(64, 256, "full_slip", lump=True)))
 
     def missing(error):
-        return does_not_close(energy_balance(end.stepper, account), end.stepper, account, error)
+        return does_not_close(energy_balance(end.stepper, [account]), end.stepper, account, error)
 
     assert missing(0.0) == ""
     account.seen.sums[FRICTION_LOSS] *= 0.9

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -17,7 +18,8 @@ OF_MEMORY = 0.05  #: of what is lost, that they may miss with arms and dashpots 
 
 @dataclass(frozen=True)
 class EnergyBalance:
-    """Energies [J] of one period, each from its own definition.
+    """Energies [J] of one period, each from its own definition; their means over the periods of a state that comes back
+    after several.
 
     pull_work + normal_work + shake_work = friction_loss + viscous_loss + damper_loss + stored_change, up to the
     residual of the scheme.
@@ -66,8 +68,14 @@ def does_not_close(balance: EnergyBalance, stepper: Stepper, account: PeriodReco
     return f"the energies of a period do not close: {missing:.2g} J are missing where {balance.lost:.2g} J are lost"
 
 
-def energy_balance(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
-    """The account of a period that was looked at closely."""
+def energy_balance(stepper: Stepper, accounts: Sequence[PeriodRecord]) -> EnergyBalance:
+    """The mean account of periods that were looked at closely."""
+    found = [astuple(_energies(stepper, one)) for one in accounts]
+    return EnergyBalance(*np.mean(found, axis=0).tolist())
+
+
+def _energies(stepper: Stepper, account: PeriodRecord) -> EnergyBalance:
+    """The account of a period."""
     scaled = stepper.scaled
     sums, h = account.seen.sums, scaled.drive.h
     unit_x, unit_z = scaled.units.energy_x, scaled.units.energy_z

@@ -6,7 +6,7 @@ form and the velocity of the pull, and counts the periods that it marched.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import NamedTuple
@@ -62,10 +62,11 @@ class PeriodRecord:
         sums = self.seen.sums
         return bool(sums[CONTACT_IMPULSE] > 0 and np.isfinite(sums[LEAST_SLIP]))
 
-    @property
-    def stick_share(self) -> float:
-        """Force-weighted share of contact time spent sticking."""
-        return float(self.seen.sums[STICK_IMPULSE] / self.seen.sums[CONTACT_IMPULSE])
+
+def stick_share(records: Sequence[PeriodRecord]) -> float:
+    """Force-weighted share of contact time spent sticking."""
+    stuck, pressed = (sum(record.seen.sums[one] for record in records) for one in (STICK_IMPULSE, CONTACT_IMPULSE))
+    return float(stuck / pressed)
 
 
 class Stepper:

@@ -33,11 +33,16 @@ class Settling:
     mean: float  #: over the second half, by smooth weights
     spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell
     settled: bool  #: whether it is an answer: the spread below its tolerance, and nothing known to move
-    kind: str  #: "periodic", "period-2" ... "period-8", "quasi-periodic" or "unsettled"
+    kind: str  #: "periodic", "period-2" ... "period-12", "averaged", "quasi-periodic" or "unsettled"
     gain: float | None = None  #: of a periodic state that was solved for (shooting.py); None of an awaited motion
     why: str = ""  #: what still moves where the windows agree
     contradicts: bool = False  #: whether the mean contradicts a theorem (theorems.py)
     across: float = 0.0  #: the mean of the force across the pull
+
+    @property
+    def periods(self) -> int:
+        """After how many periods the state comes back, as the kind says; 1 of other kinds."""
+        return int(self.kind.removeprefix("period-")) if self.kind.startswith("period-") else 1
 
     @property
     def solved(self) -> bool:

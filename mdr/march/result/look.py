@@ -17,13 +17,14 @@ from mdr.march.periodic.waiting import NO_STEP
 from mdr.tools.arrays import Array
 
 
-def looked_at(end: MarchEnd) -> tuple[MarchEnd, PeriodRecord, tuple[PeriodRecord, ...]]:
-    """The end of a march after further periods, one or as many as are to be kept; the one of them that modes and
-    energies are taken from, and all.
+def looked_at(end: MarchEnd) -> tuple[MarchEnd, list[PeriodRecord], list[PeriodRecord]]:
+    """The end of a march after further periods; those that modes and energies are taken from, all after which a state
+    comes back, and those that are to be kept, one at least.
     """
     stepper, state, n = end.stepper, end.orbit.state, end.resolution.record
+    repeats = end.settling.periods if end.settling.solved else 1
     records: list[PeriodRecord] = []
-    while len(records) < max(1, n):
+    while len(records) < max(repeats, n, 1):
         state, record = stepper.observe(state, keep=n > 0)
         records.append(record)
     if not all(np.isfinite(record.period.cof).all() for record in records):
@@ -34,9 +35,9 @@ def looked_at(end: MarchEnd) -> tuple[MarchEnd, PeriodRecord, tuple[PeriodRecord
         for record in records:
             waited.append(record.period)
         end = end.judged(waited.assess())
-    account = records[-1] if end.awaits else records[0]  # the same period however many are kept
-    why = _contradiction(end, account) if end.settling.settled else ""
-    return end.unsettled(why, contradicts=True) if why else end, account, tuple(records)
+    accounts = records[-1:] if end.awaits else records[:repeats]  # the same periods however many are kept
+    why = _contradiction(end, accounts[0]) if end.settling.settled else ""
+    return end.unsettled(why, contradicts=True) if why else end, accounts, records[-max(1, n) :]
 
 
 def _contradiction(end: MarchEnd, account: PeriodRecord) -> str:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mdr.case.friction import named_full
 from mdr.march.dynamics.energy import EnergyBalance, does_not_close, energy_balance
 from mdr.march.dynamics.state import UNKNOWN
-from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord
+from mdr.march.dynamics.stepper import TOLERANCE, PeriodRecord, stick_share
 from mdr.march.periodic.settling import LATE, MIN_PERIODS
 from mdr.march.periodic.steady import MarchEnd, too_coarse
 from mdr.march.periodic.waiting import NO_STEP
@@ -93,7 +93,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     @property
     def periods(self) -> int | None:
         """After how many periods of the vibration the motion repeats itself; None where it does not, or was not seen
-        to. Shares, energies and powers are those of one of them.
+        to. Shares, energies and powers are means over them.
         """
         if not self.settled or not self.kind.startswith(("full slip", "period")):
             return None
@@ -241,8 +241,8 @@ def friction_of(end: MarchEnd) -> Found:
     if end.scaled.body.light and end.scaled.body.M:
         run = finish(end)
         return Found(*(getattr(run, name) for name in Found._fields))
-    end, account, _ = looked_at(end)
-    return _found(end, account)
+    end, accounts, _ = looked_at(end)
+    return _found(end, accounts[0])
 
 
 def _found(end: MarchEnd, account: PeriodRecord) -> Found:
@@ -270,21 +270,21 @@ def _found(end: MarchEnd, account: PeriodRecord) -> Found:
 
 def finish(end: MarchEnd) -> SlidingRun:
     """The run of a march, after a close look at its last periods, in SI."""
-    end, account, record = looked_at(end)
-    balance = energy_balance(end.stepper, account)
+    end, accounts, record = looked_at(end)
+    account, balance = accounts[0], energy_balance(end.stepper, accounts)
     open_account = does_not_close(balance, end.stepper, account, (end.error or 0.0) + end.settling.spread)
     if end.settling.settled and open_account:
         end = end.unsettled(open_account, contradicts=True)
     if not account.sees_contact:
         raise too_coarse(end.scaled.drive.steps)
-    case, scaled, settling, sticks = end.case, end.scaled, end.settling, account.stick_share
+    case, scaled, settling, sticks = end.case, end.scaled, end.settling, stick_share(accounts)
     found, mean_F_z = _found(end, account), scaled.normal.mean * (scaled.units.stiffness_z * scaled.units.length_z)
     if found.kind != "holds" and found.settled and sticks == 0 and abs(1 - settling.mean) <= TOLERANCE:
         found = found._replace(kind="full slip")
     return SlidingRun(
         **found._asdict(),
         stick_share=sticks,
-        least_slip=float(account.seen.sums[LEAST_SLIP]) * scaled.units.speed,
+        least_slip=min(float(one.seen.sums[LEAST_SLIP]) for one in accounts) * scaled.units.speed,
         mean_F_x=found.cof * mean_F_z,
         mean_F_y=found.cof_y * mean_F_z,
         mean_F_z=mean_F_z,
@@ -324,7 +324,7 @@ def _why_not(end: MarchEnd) -> str:
     return f"{change}: raise n_periods" + (" or start from full slip" if from_rest else "")
 
 
-def _recorded(end: MarchEnd, records: tuple[PeriodRecord, ...]) -> dict[str, Any]:
+def _recorded(end: MarchEnd, records: list[PeriodRecord]) -> dict[str, Any]:
     """The last periods in SI, springs that stand alike each for itself."""
     scaled, springs = end.scaled, end.springs
     F_x, F_z, F_y, y, e, s, f, f_z, mode = (
