@@ -42,10 +42,13 @@ class _March:
     over: bool = field(default=False)
 
 
-def repeated(stepper: Stepper, start: MarchState, pre_sliding: float, most: int | None = None) -> Orbit:
+def repeated(
+    stepper: Stepper, start: MarchState, pre_sliding: float, accuracy: float, most: int | None = None
+) -> Orbit:
     """The state that a march ends in, and its COF; most: periods at most, where no state comes back.
 
-    pre_sliding: periods in which the pull goes as far as springs can be stretched.
+    pre_sliding: periods in which the pull goes as far as springs can be stretched. accuracy: of cof/mu_0 that is asked
+    for, of which a mean may take a quarter.
     """
     least = int(min(DRAWN * pre_sliding, MOST)) if np.isfinite(pre_sliding) else MOST
     most = max(most or MOST, FIRST, least)
@@ -59,7 +62,7 @@ def repeated(stepper: Stepper, start: MarchState, pre_sliding: float, most: int 
             if back[0] or time_is_over():
                 break
         periods = joined(parts)
-        late = periods.cof.size >= least and _averaged(periods.cof)[1] <= stepper.tolerance
+        late = periods.cof.size >= least and _averaged(periods.cof)[1] <= accuracy / 4
         return _March(states, periods, back, bool(back[0]) or late or time_is_over() or periods.cof.size >= most)
 
     at = iterate(go_on, lambda at: at.over, _March([start], Periods(*np.empty((3, 0)))))

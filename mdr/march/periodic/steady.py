@@ -174,7 +174,7 @@ def steady(
         )
     if n_periods is None and scaled.limit.falls:
         state = stepper.full_slip() if from_full_slip else stepper.rest()
-        orbit = repeated(stepper, state, pre_sliding(scaled, stepper.v), most)
+        orbit = repeated(stepper, state, pre_sliding(scaled, stepper.v), resolution.accuracy, most)
     elif n_periods is None:
         orbit = _searched(stepper, resolution, near)
     if orbit is None:

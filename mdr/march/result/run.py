@@ -58,7 +58,9 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     #: falls, also whether a long run tells its mean, with a statistical error in cof_error
     settled: bool
     kind: str  #: "full slip", "periodic", "period-2" ..., "averaged", "quasi-periodic", "holds" or "unsettled"
-    why: str  #: what keeps the run from settling and what to change, or what cof_error leaves out; empty if all is well
+    #: what keeps the run from settling and what to change, or what cof_error leaves out, or another motion that goes on
+    #: from the other start; empty if all is well
+    why: str
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
     least_slip: float  #: smallest slip velocity, along the pull, of the springs in contact in that period [m/s]
     mean_F_x: float  #: [N]

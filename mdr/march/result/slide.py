@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from mdr.case.contact import SlidingContact
 from mdr.case.domain import MARCHED, Domain
 from mdr.march.periodic.steady import BUDGET, MarchEnd, Resolution, check, steady
 from mdr.march.result.refinement import resolution_of, within
-from mdr.march.result.run import SlidingRun, finish
+from mdr.march.result.run import SlidingRun, finish, friction_of
 from mdr.normal.resolved import resolved
 from mdr.tools.checks import count, finite, positive
 from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
+from mdr.tools.summary import with_error
 
 LAW = Domain(MARCHED, instead="for one coefficient, friction=mdr.Coulomb(mu_0)")
 SLOWEST = 1e-9  #: pull, over mu_0 kappa omega du_z, of a run: a slower one moves springs by the rounding of their place
@@ -127,8 +129,23 @@ def slide(
             check(case, v_0)
             run = finish(steady(case, v_0, resolution, n_periods - max(1, record)))
         else:
-            run = finish(within(case, v_0, resolution))
+            run = _told_of_others(finish(within(case, v_0, resolution)), case, resolution)
     return run.mirrored if back else run
+
+
+def _told_of_others(run: SlidingRun, case: SlidingContact, resolution: Resolution) -> SlidingRun:
+    """The run, which says so where one from the other start is another: where friction falls, a body may slide on, or
+    stick and slip.
+    """
+    if case.friction.stick == 1 or case.pull.is_rigid or not run.settled:
+        return run
+    start = "rest" if resolution.start == "full_slip" else "full_slip"
+    size = Resolution(run.n_springs, run.steps_per_period, start, lump=True, bounded=False)
+    other = friction_of(steady(case, run.v_0, size))
+    if not other.settled or abs(other.cof - run.cof) <= run.cof_error + other.cof_error:
+        return run
+    what = f'two motions go on here: from start = "{start}" the COF is {with_error(other.cof, other.cof_error)}'
+    return replace(run, why="; ".join(filter(None, (run.why, what))))
 
 
 def _velocity(case: SlidingContact, v_0: Any) -> float:
