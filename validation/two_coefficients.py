@@ -185,8 +185,8 @@ def _curves_figure(fig, ax, v: Array, curves: dict[str, Array]):
     """Friction over that of sliding against velocity for three shapes: all rise above one below v_c, and fall there.
 
     Friction over that of sliding, μ_s/μ_k = 1.5, Δu_z/u_z0 = 0.4, elastic, rigid pull; dashed, the same punch with μ_k
-    alone. Below v_c friction rises above that of sliding, and falls by a jump at v_c (dotted). What remains above it is of
-    springs that the edge of contact touches anew; it ends at μ_s/μ_k times v_c (dotted).
+    alone. Below v_c friction rises above that of sliding, and falls by a jump at v_c (dotted). What remains above it is
+    of springs that the edge of contact touches anew; it ends at μ_s/μ_k times v_c (dotted).
     """
     for (shape, share), colour in zip(curves.items(), COLOURS, strict=False):
         at = np.searchsorted(v, 1.0)
