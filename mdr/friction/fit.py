@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.domain import ALIKE, holds_for
 from mdr.closed_forms.shaken_pull import CLOSED_FORM
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
@@ -104,7 +103,6 @@ class Fit(Printed, ArrayRecord):
 
 
 @offering
-@holds_for(ALIKE, instead="slide(case, v_0) at each velocity")
 def fit(
     case: SlidingContact,
     data: FrictionData,

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.domain import ALIKE, holds_for
 from mdr.case.motion import PeriodicMotion
 from mdr.case.paths import facts_at, fields_set, paths_of
 from mdr.closed_forms.critical_velocity import critical_velocity
@@ -88,7 +87,6 @@ class Tolerance(Summarised, Tabled):
 
 
 @offering
-@holds_for(ALIKE, instead="slide(case, v_0) at each velocity")
 def tolerance(
     case: SlidingContact,
     v_0: float,

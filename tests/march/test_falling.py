@@ -196,44 +196,6 @@ def test_a_pull_beside_the_jump_is_followed_with_more_steps_or_has_it_in_its_err
         assert coarse.cof_error >= 0.25
 
 
-def test_a_slow_pull_has_the_mean_of_both_coefficients_in_the_least_load():
-    case = contact(0.4, 1.5, "ball")
-    plain = replace(case, friction=mdr.Coulomb(0.5))
-    assert_allclose(mdr.static_cof(case), 1.25 * mdr.static_cof(plain), rtol=1e-14)
-    run = slide(contact(0.4, 1.5), 5e-3, n_springs=32, steps_per_period=64, accuracy=1e-3)
-    assert abs(run.cof - mdr.static_cof(contact(0.4, 1.5))) < 0.01
-
-
-def test_a_curve_has_points_above_sliding_and_a_jump_at_its_v_c():
-    case = contact(0.4, 1.5)
-    v = np.array([0.0, 0.3, 1 - 1e-5, 1 + 1e-5])
-    curve = mdr.cof_curve(case, v * case.unit_velocity)
-    laws = [mdr.laws.falling_friction(one, 0.4, 1.5).share for one in v[1:3]]
-    assert curve.falls
-    assert_allclose(curve.share, [0.75, *laws, 1.0], rtol=0, atol=1e-5)
-    assert curve.settled.all()
-    line = curve.plot().get_lines()[0]
-    assert np.isnan(line.get_ydata()).sum() == 1  # broken where it jumps
-
-
-def test_a_curve_knows_no_rest_where_no_closed_form_has_it(capsys):
-    case = contact(0.4, 1.5, material="Kelvin")
-    curve = mdr.cof_curve(case, [0.5 * case.unit_velocity], n_springs=32, steps_per_period=64)
-    assert curve.static_cof is None
-    assert "at rest" not in str(curve)
-    curve.plot()
-    with pytest.raises(ValueError, match="static_cof takes an elastic material where friction falls"):
-        mdr.cof_curve(case, [0.0])
-
-
-@pytest.mark.parametrize(("material", "words"), [("elastic", "by 0.0657 of it"), ("Kelvin", "above that of sliding")])
-def test_a_verdict_says_how_far_friction_overshoots(material, words):
-    case = contact(0.4, 1.5, material=material)
-    found = mdr.verdict(case)
-    assert found.holds
-    assert words in str(found)
-
-
 def test_friction_is_coulombs_where_it_does_not_fall():
     case = contact(0.4, 1.0)
     assert case == replace(case, friction=mdr.Coulomb(0.5))
@@ -269,27 +231,3 @@ def test_steps_that_do_not_resolve_the_body_are_refused():
     case = replace(case, pull=mdr.SpringPull(k_x=case.k_xc, m=case.k_xc / (90 * 300.0) ** 2))
     with pytest.raises(ValueError, match=r"steps_per_period = \d+, of a run .* too coarse for friction that falls"):
         slide(case, 0.5, steps_per_period=64)
-
-
-@pytest.mark.parametrize(
-    "asked",
-    [
-        mdr.measure_critical_velocity,
-        mdr.verdict,
-        lambda case: mdr.find(case, "oscillation.du_z", v_0=1e-4, share=0.9),
-        lambda case: mdr.tolerance(case, 1e-4),
-        lambda case: mdr.half_space.slide(case, 1e-4),
-        lambda case: mdr.half_space.curve(case, [1e-4]),
-        mdr.blocked_cof,
-    ],
-)
-def test_other_answers_are_refused_and_say_what_to_ask(asked):
-    with pytest.raises(ValueError, match=r"takes .*got .*: ask (mdr\.)?(slide|cof_curve|full_slip)"):
-        asked(contact(0.4, 1.5, "ball"))
-
-
-def test_a_flat_face_that_is_kept_has_the_critical_velocity_of_the_kinetic_coefficient():
-    case = contact(0.4, 1.5, material="Kelvin", pull=mdr.SpringPull(k_x=2e3, m=0.01, c_x=1.0))
-    plain = replace(case, friction=mdr.Coulomb(0.5))
-    assert mdr.full_slip_critical_velocity(case) == mdr.full_slip_critical_velocity(plain)
-    assert_allclose(mdr.critical_velocity(case), mdr.full_slip_critical_velocity(plain), rtol=1e-14)
