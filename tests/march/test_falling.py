@@ -231,3 +231,35 @@ def test_steps_that_do_not_resolve_the_body_are_refused():
     case = replace(case, pull=mdr.SpringPull(k_x=case.k_xc, m=case.k_xc / (90 * 300.0) ** 2))
     with pytest.raises(ValueError, match=r"steps_per_period = \d+, of a run .* too coarse for friction that falls"):
         slide(case, 0.5, steps_per_period=64)
+
+
+def stage(contact_over_spring, damping, velocity, alpha, stick=1.5):
+    """A punch on an undamped or damped spring: the case, its pulling velocity over Delta omega_0/k_x, and its law."""
+    punch, material = SHAPES["punch"], MATERIALS["elastic"]
+    full, k_xc = 0.5 * punch.force(20e-6, material.E_star), 2 * material.G_star * punch.a
+    k, omega_0, fall = k_xc / contact_over_spring, 600.0, (stick - 1) * full
+    m = k / omega_0**2
+    c, v_0 = 2 * damping * m * omega_0, velocity * fall * omega_0 / k
+    law = mdr.laws.stick_slip(v_0, stick * full, full, k, m, c, k_xc)
+    motion = mdr.NormalOscillation(20e-6, alpha * 20e-6, 2 * np.pi / law.period)
+    friction = mdr.StaticKinetic(0.5 * stick, 0.5)
+    pull = mdr.SpringPull(k_x=k, m=m, c_x=c)
+    return mdr.SlidingContact(punch, material, oscillation=motion, friction=friction, pull=pull), v_0, law
+
+
+@pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
+@pytest.mark.parametrize(
+    ("contact_over_spring", "damping", "velocity"),
+    [(1, 0.0, 0.3), (1, 0.02, 0.3), (10, 0.02, 0.3), (10, 0.1, 0.3), (100, 0.02, 0.05), (100, 0.1, 0.05)],
+)
+def test_stick_slip_without_vibration_is_its_closed_form(contact_over_spring, damping, velocity):
+    """Next to no vibration, of the period of the law: the body is where it was, period after period."""
+    case, v_0, law = stage(contact_over_spring, damping, velocity, alpha=1e-7)
+    run = mdr.slide(case, v_0, start="rest", n_springs=16, steps_per_period=8192, n_periods=200, record=4)
+    stretch = v_0 * run.t.reshape(4, -1) - run.u_x.reshape(4, -1)
+    rate = np.gradient(stretch[0], run.t[1] - run.t[0])
+    steepest = np.argmin(rate)
+    assert abs(stretch[3] - stretch[0])[steepest] < 1e-6 * 3 * law.period * abs(rate[steepest])
+    assert_allclose(run.mean_F_x, law.mean_force, rtol=1e-6)
+    assert_allclose(run.stick_share, law.rest, rtol=1e-6)
+    assert_allclose(np.diff(run.u_x).max() / (run.t[1] - run.t[0]), law.speed, rtol=3e-6)  # means over steps
