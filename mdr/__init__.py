@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
     from mdr.march.result.run import SlidingRun
     from mdr.march.result.slide import slide
+    from mdr.march.result.slowest import least_velocity
     from mdr.element.contact_element import ContactElement
     from mdr.element.record import SlideRecord, slide_record
     from mdr.element.random_cof import RandomCof, random_cof
@@ -82,6 +83,7 @@ _LATER = {
     "mdr.closed_forms.full_slip_body": ("full_slip_critical_velocity",),
     "mdr.march.result.run": ("SlidingRun",),
     "mdr.march.result.slide": ("slide",),
+    "mdr.march.result.slowest": ("least_velocity",),
     "mdr.element.contact_element": ("ContactElement",),
     "mdr.element.record": ("SlideRecord", "slide_record"),
     "mdr.element.random_cof": ("RandomCof", "random_cof"),
@@ -103,11 +105,12 @@ __all__ = [
     "CaseFileError", "CofCurve", "ContactElement", "FrictionData", "ManyCofs", "PlausibilityWarning", "Quantity",
     "RandomCof", "RigidPull", "SlideRecord", "SlidingContact", "SlidingRun", "Spectrum", "SpringArray", "SpringPull",
     "State", "Study", "blocked_cof", "cof_curve", "critical_velocity", "displacement_of", "find", "fit",
-    "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "measure_critical_velocity",
-    "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof", "read_case", "read_creep",
-    "read_force_curve", "read_friction_data", "read_moduli", "read_record", "read_relaxation", "read_study", "register",
-    "resolved", "rig", "slide", "slide_many", "slide_record", "static_cof", "static_depth", "static_load",
-    "surface_fields", "sweep", "tangential_loop", "tolerance", "verdict", "waveforms", "write_case",
+    "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
+    "measure_critical_velocity", "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof",
+    "read_case", "read_creep", "read_force_curve", "read_friction_data", "read_moduli", "read_record",
+    "read_relaxation", "read_study", "register", "resolved", "rig", "slide", "slide_many", "slide_record", "static_cof",
+    "static_depth", "static_load", "surface_fields", "sweep", "tangential_loop", "tolerance", "verdict", "waveforms",
+    "write_case",
 ]  # fmt: skip
 __all__ += indenters.__all__  # shapes, materials, laws of friction and motions are listed where they stand
 __all__ += materials.__all__

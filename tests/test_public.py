@@ -86,7 +86,8 @@ SIGNATURES = {
     "Spectrum": "f, density",
     "Spectrum.band": "rms, f_low, f_high",
     "cof_curve": "case, v_0, *, method=None, n_springs=None, steps_per_period=None, accuracy=1e-05",
-    "find": "case, path, *, v_0=None, cof=None, share=None, v_c=None, within=None, held=None",
+    "find": "case, path, *, v_0=None, cof=None, share=None, v_c=None, smooth=False, within=None, held=None",
+    "least_velocity": "case, v_0",
     "tolerance": "case, v_0, by=0.1, fields=None, *, held=None",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",

@@ -21,15 +21,17 @@ def add_options_of_find(command: argparse.ArgumentParser) -> None:
     """The number that is searched for, the wish, and the range."""
     known = "the number that is searched for, such as oscillation.du_z, load, frequency, alpha or v_0"
     command.add_argument("path", help=known)
-    wish = "([--v-0 velocity] (--cof friction | --share share) | --v-c velocity)"
+    wish = "([--v-0 velocity] (--cof friction | --share share | --smooth) | --v-c velocity)"
     command.usage = f"%(prog)s case.toml path {wish} [--within low high]"
-    pulled = "pulling velocity, with --cof or --share, unless it is searched for: 10mm/s, 0.5v_c"
+    pulled = "pulling velocity, with --cof, --share or --smooth, unless it is searched for: 10mm/s, 0.5v_c"
     command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
     friction = quantity("a COF", "-", OF_MU_0)
     command.add_argument("--cof", metavar="friction", type=friction, help="friction that is wanted: 0.2, 0.5mu_0")
     share = plain_number("-", "a share, such as 99% or 0.99")
     command.add_argument("--share", metavar="share", type=share, help="share of full friction that is wanted: 99%%")
     command.add_argument("--v-c", metavar="velocity", type=velocity, help="critical velocity that is wanted")
+    smooth = "from which value on a body slides without stick-slip, where friction falls"
+    command.add_argument("--smooth", action="store_true", help=smooth)
     ends = "range of the search: 0.1um 5um (default: 0.1 to 10 times the value of the case; for v_0 0.001v_c 10v_c)"
     command.add_argument("--within", metavar=("low", "high"), nargs=2, help=ends)
 
@@ -40,7 +42,8 @@ def find(args: argparse.Namespace, asked: Said) -> int:
     with refusals():
         path = searched_path(asked.case, args.path)
         within = args.within and tuple(_end(end, path, asked.case) for end in args.within)
-        found = mdr.find(asked.case, path, **wish, share=args.share, within=within, held=asked.held)
+        wished = {**wish, "share": args.share, "smooth": args.smooth}
+        found = mdr.find(asked.case, path, **wished, within=within, held=asked.held)
     unit = facts_at(path).unit
     pairs = zip(found.values, found.cases, strict=True)
     spent = [] if args.v_c else [_power(case, wish.get("v_0", value)) for value, case in pairs]

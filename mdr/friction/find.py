@@ -5,6 +5,9 @@ asked without reaching it, the nearest point is sought first: a pair of roots ma
 
 A run is as accurate as its place needs: coarse while it misses what is asked by more than its error, which tells the
 side, and with full accuracy from there on, so that every value and every end of the range is as good as a single run.
+
+Whether a body slides without stick-slip is yes or no, and may change more than once: each change from no to yes that
+the scan sees is halved to, and the value is the last that was yes.
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.domain import ALIKE, holds_for
+from mdr.case.domain import ALIKE, Domain
 from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.friction.cof_curve import friction_at
@@ -26,6 +29,7 @@ from mdr.friction.free_parameters import allowed, case_of, changed, path_of, val
 from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE
+from mdr.march.result.slowest import least_velocity
 from mdr.normal.normal_force import full_cof, mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import EXACT
@@ -36,6 +40,9 @@ from mdr.tools.progress import Ticker
 from mdr.tools.summary import Printed
 
 OF_RUN = "v_0"  #: a number that may be searched for and is none of the case
+LAW = Domain((ALIKE,), instead="slide(case, v_0) at each velocity; find with smooth=True is where stick-slip ends")
+SMOOTH = 0.5  #: of v_0, which a body is above that does not stick and slip, averaged over each period of the vibration
+LOOKS, HALVED = 17, 7  #: places where a scan asks for it, and how often the way between two is halved
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,6 @@ class Found(Printed):
 
 
 @offering
-@holds_for(ALIKE, instead="slide(case, v_0) at each velocity")
 def find(
     case: SlidingContact,
     path: str,
@@ -67,10 +73,13 @@ def find(
     cof: float | None = None,
     share: float | None = None,
     v_c: float | None = None,
+    smooth: bool = False,
     within: tuple[float, float] | None = None,
     held: Mapping[str, Any] | None = None,
 ) -> Found:
     """Values [SI] of one number of a case at which friction, or the critical velocity, is what is asked for.
+
+    Or from which on a body slides without stick-slip, where friction falls.
 
     Parameters
     ----------
@@ -88,6 +97,9 @@ def find(
         shear strength of the face makes of it.
     v_c : float, optional
         The critical velocity [m/s] that is wanted, as `critical_velocity` gives it. Give this, or v_0 and cof or share.
+    smooth : bool
+        Ask from which value on a body that v_0 pulls from rest slides without stick-slip: its `least_velocity` is more
+        than half of v_0. A run just below does not. Between two of 17 places that are looked at more may hide.
     within : (float, float), optional
         Lowest and highest value. None: a tenth to ten times that of the case, as far as the case can have it; of v_0 a
         thousandth to ten times the critical velocity, or of Eq. (1) where that is infinite or zero.
@@ -118,7 +130,7 @@ def find(
     >>> print(mdr.find(case, "v_0", share=0.9))
     v_0 = 84.9517 µm/s, mean load 80.601 mN
     """
-    case = as_given(case)
+    case = as_given(case) if smooth else LAW.seen(case, "find")
     at_rest(case)  # warns of what is unlikely
     path = searched_path(case, path)
     held = still_held(held or {}, [path])
@@ -129,8 +141,8 @@ def find(
     def at(value: float) -> SlidingContact:
         return case if path == OF_RUN else changed(case, path, value, held)
 
-    wish = _wish(case, path, v_0, cof, share, v_c)
-    search = _Search(at, wish, *_range(case, path, within, held))
+    wish = _wish(case, path, v_0, cof, share, v_c, smooth)
+    search = (_Changes if smooth else _Search)(at, wish, *_range(case, path, within, held))
     values = tuple(search.values())
     cases = tuple(map(at, values))
     loads = tuple(map(mean_normal_force, cases))
@@ -160,13 +172,16 @@ class _Wish(NamedTuple):
         return 1 - 2 * self.wanted / (found + self.wanted)
 
 
-def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: Any) -> _Wish:
+def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: Any, smooth: Any) -> _Wish:
     """What was asked for."""
     searched = path == OF_RUN
-    if searched and (v_0 is not None or v_c is not None or (cof is None) == (share is None)):
-        raise ValueError("of v_0 give one wish: cof or share; critical_velocity(case) is v_c")
-    if not searched and ([cof, share, v_c].count(None) != 2 or (v_c is None) == (v_0 is None)):
-        raise ValueError("give one wish: cof or share at a velocity v_0, or v_c")
+    if not isinstance(smooth, bool):
+        raise TypeError(f"smooth must be True or False, got {smooth!r}")
+    wishes = [cof, share, v_c, smooth or None]
+    if searched and (v_0 is not None or v_c is not None or wishes.count(None) != 3):
+        raise ValueError("of v_0 give one wish: cof, share or smooth; critical_velocity(case) is v_c")
+    if not searched and (wishes.count(None) != 3 or (v_c is None) == (v_0 is None)):
+        raise ValueError("give one wish: cof, share or smooth at a velocity v_0, or v_c")
     if v_c is not None:
         wanted = positive("v_c", v_c, "critical velocity in m/s")
         return _Wish(lambda one, *_: (critical_velocity(one), 0.0), wanted, "v_c", "m/s")
@@ -176,6 +191,13 @@ def _wish(case: SlidingContact, path: str, v_0: Any, cof: Any, share: Any, v_c: 
     def friction(one: SlidingContact, value: float, accuracy: float) -> tuple[float, float]:
         return _settled(one, value if searched else speed, accuracy, in_full_slip=share is not None)
 
+    if smooth:
+
+        def slowest(one: SlidingContact, value: float, _accuracy: float) -> tuple[float, float]:
+            pull = value if searched else speed
+            return least_velocity(one, pull) / pull, 0.0
+
+        return _Wish(slowest, SMOOTH, f"the least velocity over v_0{where}", "")
     if share is not None:
         return _Wish(friction, between("share", share, -1, 1, "of full friction"), f"the share{where}", "")
     wanted = finite("cof", cof)
@@ -309,3 +331,36 @@ class _Search:
         gaps = f"; `within` may be widened{limit}"
         gaps += f"; where there is a case, as not everywhere: {self.refused}" if self.refused else ""
         return f"none: {wish.what} {between} for {path} {where}, and {shown(wish.wanted, wish.unit)} is asked for{gaps}"
+
+
+class _Changes(_Search):
+    """The search for where stick-slip ends: what is asked jumps there."""
+
+    again: tuple[float, ...] = ()  #: the last values without stick-slip below one with it
+
+    def values(self) -> list[float]:
+        """The first value without stick-slip above one with it, of each change that a scan sees."""
+        known = {x: self.miss(x) for x in np.linspace(0, 1, LOOKS).tolist()}
+        ends = [self._change(*sides) for sides in pairwise(known) if known[sides[0]] * known[sides[1]] < 0]
+        self.again = tuple(self.value(x) for rises, x in ends if not rises)
+        return [self.value(x) for rises, x in ends if rises]
+
+    def _change(self, low: float, high: float) -> tuple[bool, float]:
+        """Whether stick-slip ends or begins between two coordinates, and the one next to the change that is without."""
+        rises = self.miss(low) < 0
+        for _ in range(HALVED):
+            middle = (low + high) / 2
+            low, high = (low, middle) if (self.miss(middle) > 0) == rises else (middle, high)
+        return rises, high if rises else low
+
+    def why(self, path: str, is_found: bool) -> str:
+        """Why there is no value, or where there is stick-slip above one."""
+        unit = facts_at(path).unit
+        if self.again:
+            told = f"stick-slip again from {' and from '.join(shown(one, unit) for one in self.again)} on"
+            return "; ".join(filter(None, (told, super().why(path, True))))
+        if is_found or not self.found:
+            return super().why(path, is_found)
+        is_smooth = max(self.found.values())[0] > SMOOTH
+        what = "no stick-slip, pulled from rest," if is_smooth else "stick-slip"
+        return f"none: {what} from {shown(self.low, unit)} to {shown(self.high, unit)}; `within` may be widened"

@@ -31,6 +31,7 @@ LABELS = {
     "full_slip_v_c": "critical velocity $v_c$ in full slip",
     "measured_v_c": "measured critical velocity $v_c$",
     "stick_share": "share of contact time in stick",
+    "least_velocity": "least velocity of the body",
     "cof_error": "error of the coefficient of friction",
 }  #: how quantities are written in figures; any other by its name
 NEAR = 0.1  #: of the greatest value, below which zero is worth a tick

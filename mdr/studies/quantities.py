@@ -19,6 +19,7 @@ from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.cof_curve import Columns
 from mdr.friction.measured_velocity import measure_critical_velocity
+from mdr.march.result.slowest import least_velocity
 from mdr.normal.normal_force import full_cof, mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import Array
@@ -111,6 +112,13 @@ CATALOGUE: dict[str, Quantity] = {
         Quantity("alpha", "-", _Attribute("alpha", resolved), "relative amplitude du_z/u_z0"),
         Quantity("T", "-", _Attribute("T"), "omega tau of the long-time branch"),
         Quantity("mean_F_N", "N", mean_normal_force, "mean normal force"),
+        Quantity(
+            "least_velocity",
+            "m/s",
+            least_velocity,
+            "least velocity of a body that is pulled from rest, each averaged over a period of the vibration",
+            per_velocity=True,
+        ),
         CurveQuantity("cof", "-", _Attribute("cof"), "average coefficient of friction", closely=False),
         CurveQuantity(
             "cof_y", "-", _Attribute("cof_y"), "the same across the pull, mean F_y over mean F_z", closely=False

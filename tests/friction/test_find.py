@@ -175,3 +175,79 @@ def test_a_strength_is_found_from_the_friction_that_it_leaves():
     assert np.all(np.diff(study["cof"].ravel()) > 0)
     found = mdr.find(case, "tau_0", v_0=1e-3, share=0.99)
     assert mdr.slide(found.cases[0], 1e-3).share == pytest.approx(0.99, abs=1e-5)
+
+
+def stage(vibration, size, over_swing=10.0, spring=2500.0, damping=0.1, velocity=0.3):
+    """A body on a spring over a damped contact, mu_s = 1.5 mu_k, that a vibration of so many times its natural
+    frequency takes `size` off the breakaway; its velocity, over Delta omega_0/k_x.
+    """
+    punch, omega_0 = mdr.FlatPunch(1e-3), 600.0
+    k_xc, full = 2 * mdr.Elastic(3e6, 0.4).G_star * punch.a, 0.5 * punch.force(20e-6, mdr.Elastic(3e6, 0.4).E_star)
+    k, omega = k_xc / spring, over_swing * omega_0
+    m, material = k / omega_0**2, mdr.KelvinVoigt(3e6, 0.4, 1 / (omega_0 * np.sqrt(spring)))
+    pull = mdr.SpringPull(k_x=k, m=m, c_x=2 * damping * m * omega_0)
+    motion, shake = mdr.ConstantDepth(20e-6), None
+    if vibration == "up and down":
+        motion = mdr.NormalOscillation(20e-6, size * 20e-6, omega)
+    elif vibration == "tool":
+        shake = mdr.InPlaneOscillation(omega, du_x=size * 1.5 * full * abs(1 / k_xc - 1 / (m * omega**2)))
+    else:
+        du_x = size * 1.5 * full / np.hypot(k, omega * pull.c_x)
+        shake = mdr.InPlaneOscillation(omega, du_x=du_x, at="pull")
+    law = mdr.StaticKinetic(0.75, 0.5)
+    case = mdr.SlidingContact(punch, material, oscillation=motion, pull=pull, friction=law, shake=shake)
+    wanted = mdr.laws.dither_force(velocity * 0.5 * full * omega_0 / k, 1.5 * full, full, k, m, pull.c_x)
+    return case, velocity * 0.5 * full * omega_0 / k, wanted / (1.5 * full)
+
+
+@pytest.mark.parametrize(
+    ("vibration", "path", "why"),
+    [("up and down", "du_z", ""), ("tool", "du_x", ""), ("up and down", "frequency", "stick-slip again from 12")],
+)
+def test_where_stick_slip_ends_runs_beside_it_do_and_do_not_stick(vibration, path, why):
+    case, v_0, _ = stage(vibration, 0.25)
+    found = mdr.find(case, path, v_0=v_0, smooth=True)
+    assert found.why[:24] == why
+    (value,) = found.values
+    for factor, sticks in ((0.98, True), (1.0, False), (1.02, False)):
+        one = case_at(case, {found.path: factor * value})
+        periods = round(12 * 2 * np.pi / 600.0 / one.period)
+        run = mdr.slide(one, v_0, start="rest", n_periods=4 * periods, record=periods)
+        went = np.diff(run.u_x.reshape(periods, -1)[:, -1]) / one.period
+        assert (went.min() < 0.3 * v_0) == sticks
+        assert (mdr.least_velocity(one, v_0) < 0.5 * v_0) == sticks
+
+
+def test_the_faster_the_vibration_the_nearer_is_stick_slip_to_end_where_the_law_has_it():
+    missed = []
+    for over_swing in (10.0, 20.0):
+        case, v_0, law = stage("up and down", 0.2, over_swing, spring=1e4)
+        (alpha,) = mdr.find(case, "alpha", v_0=v_0, smooth=True, within=(law, 1.4 * law)).values
+        missed.append(alpha / law - 1)
+    assert 0 < missed[1] < 0.4 * missed[0] < 0.1
+
+
+@pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
+def test_there_is_no_end_of_stick_slip_where_all_is_smooth_or_nothing():
+    case, v_0, law = stage("up and down", 0.25)
+    for within, words in (((0.01, 0.5 * law), "none: stick-slip from"), ((0.5, 0.6), "none: no stick-slip, pulled")):
+        found = mdr.find(case, "alpha", v_0=v_0, smooth=True, within=within)
+        assert found.values == ()
+        assert found.why.startswith(words)
+    plain = replace(case, friction=mdr.Coulomb(0.5))
+    assert mdr.find(plain, "alpha", v_0=v_0, smooth=True, within=(0.1, 0.2)).why.startswith("none: no stick-slip")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"pull": mdr.RigidPull()}, "least_velocity takes a body with a mass"),
+        ({"v_0": 1e-12}, "takes .* periods of the vibration, more than 1000000: raise v_0"),
+        ({"v_0": -1.0}, "v_0 must be positive"),
+    ],
+)
+def test_what_least_velocity_does_not_take_is_refused(change, words):
+    case, v_0, _ = stage("up and down", 0.25)
+    v_0 = change.pop("v_0", v_0)
+    with pytest.raises(ValueError, match=words):
+        mdr.least_velocity(replace(case, **change), v_0)

@@ -33,12 +33,14 @@ def test_the_catalogue_is_what_the_functions_return():
     v_0 = [0.0, 1e-4, 1e-3]
     columns, curve = cof_at(RIGID, v_0), mdr.cof_curve(RIGID, v_0)
     assert CATALOGUE["measured_v_c"].of(RIGID) == mdr.measure_critical_velocity(RIGID).v_c
-    assert set(CATALOGUE) == {"measured_v_c", *OF_CASE, *OF_CURVE}
+    assert CATALOGUE["least_velocity"].of(BODY, 1e-3) == mdr.least_velocity(BODY, 1e-3)
+    assert set(CATALOGUE) == {"measured_v_c", "least_velocity", *OF_CASE, *OF_CURVE}
     for name, one in CATALOGUE.items():
         assert one.name == name
         assert one.unit
         assert one.meaning
-        assert one.per_velocity == isinstance(one, CurveQuantity) == (name in OF_CURVE)
+        assert isinstance(one, CurveQuantity) == (name in OF_CURVE)
+        assert one.per_velocity == (name in OF_CURVE or name == "least_velocity")
         assert pickle.loads(pickle.dumps(one)) == one
         if name in OF_CASE:
             assert one.of(BODY) == OF_CASE[name](BODY)

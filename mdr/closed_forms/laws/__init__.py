@@ -38,7 +38,7 @@ Friction that falls, mu_s > mu_k
     A spring that keeps contact slips throughout above Eq. (1) with mu_k, and does not know mu_s. Below it sticks until
     its force, on a straight line, has come to mu_s f_z. So friction overshoots, and falls by a jump at v_c
     (`falling_friction`). A body on a spring does stick-slip without vibration (`stick_slip`), unless a damper ends it
-    (`stick_slip_end`).
+    (`stick_slip_end`), or a vibration (`dither_force`).
 
 Body, finite amplitude
     A curved contact grows and shrinks within the period. With s = d ln k_zc/d ln d the normal force is, to second order
@@ -64,7 +64,7 @@ from mdr.closed_forms.laws.bodies import (
     stiffness_exponent,
 )
 from mdr.closed_forms.laws.falling import FallingFriction, falling_friction
-from mdr.closed_forms.laws.limit_cycle import StickSlip, stick_slip, stick_slip_end
+from mdr.closed_forms.laws.limit_cycle import StickSlip, dither_force, stick_slip, stick_slip_end
 from mdr.closed_forms.laws.random import random_end, random_friction, random_loss, slow_random_loss
 from mdr.closed_forms.laws.rigid_pull import (
     amplitude_limit,
@@ -80,7 +80,7 @@ from mdr.closed_forms.laws.waveform import best_waveform, steepest_waveform, wav
 
 __all__ = [
     "EllipticDrive", "FallingFriction", "LeastOverDepth", "StickSlip", "amplitude_limit", "best_waveform", "blow",
-    "coupled_critical_velocity", "coupling_loss", "depth_sensitivity", "edge_band", "elliptic_drive",
+    "coupled_critical_velocity", "coupling_loss", "depth_sensitivity", "dither_force", "edge_band", "elliptic_drive",
     "excess_across", "falling_friction", "first_order", "full_slip_of_half_space", "half_a_blow", "harmonic_share",
     "held_across", "held_under_shake", "late_return", "least_over_depth", "load_error", "lock_in", "lost_across",
     "lost_at_the_edge", "lost_under_shake", "onset", "radial_rub", "random_end", "random_friction", "random_loss",

@@ -1,4 +1,4 @@
-"""Stick-slip of a body on a spring, without vibration: its limit cycle from event to event."""
+"""Stick-slip of a body on a spring without vibration: its limit cycle from event to event, and what ends it."""
 
 from __future__ import annotations
 
@@ -136,6 +136,43 @@ def stick_slip_end(breakaway: float, sliding: float, k_x: float, m: float, c_x: 
 
     bounds = np.pi / of_place.omega, 2 * np.pi / of_place.omega
     return speed * touches(minimize_scalar(lambda t: -touches(t), bounds=bounds, options={"xatol": 1e-9}).x)
+
+
+def dither_force(v_0: float, breakaway: float, sliding: float, k_x: float, m: float, c_x: float = 0.0) -> float:
+    """Force [N] that a fast vibration has to take off the breakaway, to end stick-slip.
+
+    The contact is let go where the vibration helps most, at the breakaway less this force A, and slips against the mean
+    friction mu_k F, so that the drop of friction is Delta - A. Stick-slip ends as `stick_slip_end` comes down to v_0::
+
+        A = Delta - v_0 sqrt(k_x m)/V(zeta),    V = stick_slip_end sqrt(k_x m)/Delta, infinite without a damper
+
+    Up and down A is mu_s dF_z, so that dF_z/F_z = A/(mu_s F); never more than 1 - mu_k/mu_s. Along the slide it is what
+    shakes the body that sticks: du_x/(1/k_xc - 1/(m omega²)) of a tool, du_x (k_x² + omega² c_x²)^(1/2) of a pulling
+    point, 1/k_xc left out.
+
+    The limit of a vibration that is fast for the body and slow for it on the contact, whose swing dies out in each
+    stick: omega_0 << omega << sqrt(k_xc/m), where it is faster than v_c of the vibration, too. Nearer to omega_0 more
+    is needed, as the vibration rocks the body; where the swing lasts, less [dither].
+
+    Parameters
+    ----------
+    v_0, breakaway, sliding, k_x, m, c_x : float
+        As of `stick_slip`.
+
+    Returns
+    -------
+    float
+        Force [N]; 0 where there is no stick-slip without vibration.
+
+    Examples
+    --------
+    >>> print(f"{mdr.laws.dither_force(1e-4, breakaway=3.0, sliding=2.0, k_x=1e5, m=1.0, c_x=60.0):.3f} N")
+    0.954 N
+    """
+    fall, *_ = _groups(breakaway, sliding, k_x, m, c_x)
+    positive("v_0", v_0, "pulling velocity in m/s")
+    end = stick_slip_end(breakaway, sliding, k_x, m, c_x)
+    return fall * max(1 - v_0 / end, 0.0) if end else 0.0
 
 
 def _groups(breakaway: float, sliding: float, k_x: float, m: float, c_x: float) -> tuple[float, float, float]:

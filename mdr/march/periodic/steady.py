@@ -166,12 +166,7 @@ def steady(
     stepper = Stepper(scaled, v_0 / scaled.units.speed, min(TOLERANCE, resolution.accuracy / 10), total)
     from_full_slip, waiting = resolution.start == "full_slip", None
     orbit = None
-    if scaled.limit.falls and scaled.body.light:
-        raise ValueError(
-            f"steps_per_period = {resolution.steps}, of a run or of one with fewer steps beside it, is too coarse for "
-            "friction that falls: steps must resolve how fast the body swings on the contact; raise steps_per_period, "
-            "or the mass of the body"
-        )
+    resolves(scaled, resolution)
     if n_periods is None and scaled.limit.falls:
         state = stepper.full_slip() if from_full_slip else stepper.rest()
         orbit = repeated(stepper, state, pre_sliding(scaled, stepper.v), resolution.accuracy, most)
@@ -188,6 +183,16 @@ def steady(
         raise out_of_range(v_0)
     n_marched, awaits = stepper.n_periods, n_periods is not None
     return MarchEnd(case, v_0, resolution, springs, stepper, orbit, n_marched, waiting, awaits)
+
+
+def resolves(scaled: ScaledContact, resolution: Resolution) -> None:
+    """Refuse steps that do not resolve the body where friction falls."""
+    if scaled.limit.falls and scaled.body.light:
+        raise ValueError(
+            f"steps_per_period = {resolution.steps}, of a run or of one with fewer steps beside it, is too coarse for "
+            "friction that falls: steps must resolve how fast the body swings on the contact; raise steps_per_period, "
+            "or the mass of the body"
+        )
 
 
 def alike_to(end: MarchEnd) -> float:
