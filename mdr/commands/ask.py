@@ -55,10 +55,12 @@ def find(args: argparse.Namespace, asked: Said) -> int:
 
 
 def _power(case: mdr.SlidingContact, v_0: float) -> dict[str, float] | None:
-    """What it takes [W], by a run; None where that does not settle, or friction is a limit as v_0 -> 0."""
+    """What it takes [W], by a run; None where that does not settle, or friction is a limit as v_0 -> 0, or falls and
+    the periods of the run differ.
+    """
     with suppress(ValueError):
         run = mdr.slide(case, v_0)
-        return run.power if run.settled else None
+        return run.power if run.settled and (case.friction.stick == 1 or run.periods == 1) else None
     return None
 
 
