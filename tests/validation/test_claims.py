@@ -19,6 +19,7 @@ from validation import (
     shaken_across,
     static_cof,
     steel_slide,
+    stick_slip,
     transverse_slip,
     uncoupled,
     uniqueness,
@@ -70,6 +71,19 @@ def test_limits_of_lost_contact_that_are_off_are_seen(monkeypatch):
     scale(monkeypatch, laws, "amplitude_limit", 1.001)
     assert not any(c.held for c in lost_contact._rigid_checks(points))
     assert not any(c.held for c in lost_contact._limit_checks())
+
+
+def test_a_limit_cycle_that_is_off_is_seen(monkeypatch):
+    q, zeta, v = stick_slip.CYCLES[0]
+    assert all(c.held for c in stick_slip._cycle_checks([stick_slip.cycle(q, zeta, v, 1024)], quick=True))
+    right = laws.stick_slip
+
+    def wrong(*given, **knobs):
+        told = right(*given, **knobs)
+        return told._replace(period=1.001 * told.period, mean_force=1.001 * told.mean_force, rest=1.001 * told.rest)
+
+    monkeypatch.setattr(laws, "stick_slip", wrong)
+    assert not any(c.held for c in stick_slip._cycle_checks([stick_slip.cycle(q, zeta, v, 1024)], quick=True))
 
 
 def test_a_slope_over_depth_that_is_off_is_seen(monkeypatch):

@@ -152,7 +152,7 @@ def dither_force(v_0: float, breakaway: float, sliding: float, k_x: float, m: fl
 
     The limit of a vibration that is fast for the body and slow for it on the contact, whose swing dies out in each
     stick: omega_0 << omega << sqrt(k_xc/m), where it is faster than v_c of the vibration, too. Nearer to omega_0 more
-    is needed, as the vibration rocks the body; where the swing lasts, less [dither].
+    is needed, as the vibration rocks the body; where the swing lasts, less [stick_slip].
 
     Parameters
     ----------
