@@ -1,8 +1,10 @@
 """Friction in the plane: |L[e]| <= R in length, with the extension e (a vector) and R = L[q] (limit.py), over a stretch
 of contact: a disc in the place of the interval of line.py.
 
-* *stick*: e goes with the top, L[e] is known, until its length comes to R;
+* *stick*: e goes with the top, L[e] is known, until its length comes to stick R;
 * *slip*: |L[e]| = R, along the slip velocity, which turns (dragged.py), until it comes to zero.
+
+Where friction falls, stick is above 1, and the force of a spring that is let go falls to R along itself at once.
 
 Arms remember the slip, which depends on their memory: the two are brought in line with each other.
 """
@@ -15,10 +17,24 @@ from typing import NamedTuple
 from mdr.spring.contact import MOST_EVENTS, Friction
 from mdr.spring.contact_modes import SLIP, STICK
 from mdr.spring.dragged import EVEN, TINY, Slip, slides, yielded
-from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola
+from mdr.spring.energies import FRICTION_LOSS, LEAST_SLIP, SHEAR_VISCOUS, STICK_IMPULSE, lost_on_parabola, stored
 from mdr.spring.law import phi_of
+from mdr.spring.limit import stick_of
 from mdr.spring.motion import end_force, glassy, held_force, hold
-from mdr.spring.path import FAST_IN_PLANE, LENT, NEVER, ROUNDING, Cubic, along, at, cubic, cubic_later, size_of, slope
+from mdr.spring.path import (
+    FAST_IN_PLANE,
+    LENT,
+    NEVER,
+    ROUNDING,
+    Cubic,
+    along,
+    at,
+    cubic,
+    cubic_later,
+    multiple,
+    size_of,
+    slope,
+)
 from mdr.spring.times import PART, fill
 from mdr.spring.whole import TOUCHING
 from mdr.tools.jit import inner
@@ -213,14 +229,14 @@ def until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools):
 
 
 @_inline
-def sticks(e, i, w, top, R, t, k, tol, T, modes, arms, tools, look):
-    """Stick from now on, for as long as it lasts."""
+def sticks(e, i, w, top, R, most, t, k, tol, T, modes, arms, tools, look):
+    """Stick from now on, for as long as it lasts: until the force leaves the disc `most`."""
     f = cubic(held_force(e, i, top.p, top.q, t, k, T, tools, arms), t)
-    until = until_slip(f, R, t, tol)
+    until = until_slip(f, most, t, tol)
     lasts = until >= t
     if not lasts:
         if arms is not None:
-            until = until_true_slip(e, i, top, f, R, until, t, tol, T, arms, tools)
+            until = until_true_slip(e, i, top, f, most, until, t, tol, T, arms, tools)
             fill(until, None, arms, tools.times, PART)
         t, k = until, PART
     if look is not None:
@@ -231,6 +247,20 @@ def sticks(e, i, w, top, R, t, k, tol, T, modes, arms, tools, look):
         look.sums[LEAST_SLIP] = min(look.sums[LEAST_SLIP], 0.0)
     area, moment = hold(e, i, top.p, top.q, t, k, T, tools, arms)
     return Stretch(t, lasts, 0.0j, 0.0, area, moment)
+
+
+@_inline
+def let_go(e, i, w, g, R, T, arms, look):
+    """Let go spring i, of the force g: it falls to the limit R along itself. Without dashpot by a jump of the end of
+    the spring, whose energy is heat of friction; with one as it begins to slip.
+    """
+    rho, before = size_of(g), stored(e, i, arms)
+    if T == 0.0 and rho > R:
+        jump = g * ((rho - R) / (rho * glassy(arms)))
+        for j in range(e.shape[0]):
+            e[j, i] -= jump
+    if look is not None:
+        look.sums[FRICTION_LOSS] += w * (before - stored(e, i, arms))
 
 
 # --- slip ---
@@ -396,28 +426,46 @@ def start_of(e, i, top, R, h, G, T, arms):
 
 
 @_inline
+def begins(start, out, T, tol):
+    """True if a spring slips at once whose trial force is by `out` beyond the disc of this Start."""
+    return (out >= -tol and start.ahead > 0.0) or (T > 0.0 and out > tol)
+
+
+@_inline
 def rub_disc(q, e, limit, i, w, pressing, T, modes, arms, tools, look):
     """Friction of spring i over a stretch of contact, as rub_line of line.py."""
     z, x, t, k, begun, tol, _ = pressing
     h, G, R = tools.times.h, glassy(arms), cubic(held_force(q, i, z[0], z[1], t, k, T, tools, arms), t)
     borne, borne_moment = hold(q, i, z[0], z[1], t, k, T, tools, arms)
     gone, zeros, mode, n, vel, top = 0.0, 0, BEGINS, 0.0j, 0.0, Parabola(x[0], x[1])
+    stick, freed = stick_of(limit), False
     area, moment, stuck, stuck_moment = 0.0j, 0.0j, 0.0, 0.0
     for _ in range(MOST_EVENTS):
         left, now = t - gone, begun + gone
         start = start_of(e, i, top, R, h, G, T, arms)
         out = size_of(start.g) - max(R.a, 0.0)
-        if arms is not None and mode == SLIP and zeros == 0 and out < -INSIDE * tol:
+        most, slips_at_once = multiple(stick, R), begins(start, out, T, tol)
+        if limit is not None and stick > 1.0 and mode == BEGINS:
+            freed = not (slips_at_once and begun == 0.0 and limit.was[i] == SLIP)
+        if limit is not None and stick > 1.0 and freed:
+            static = start_of(e, i, top, most, h, G, T, arms)
+            out = size_of(static.g) - max(most.a, 0.0)
+            if begins(static, out, T, tol) if mode == BEGINS else out >= -INSIDE * tol:
+                let_go(e, i, w, start.g, max(R.a, 0.0), T, arms, look)
+                start, mode = start_of(e, i, top, R, h, G, T, arms), SLIP
+            else:
+                mode = STICK
+        elif arms is not None and mode == SLIP and zeros == 0 and out < -INSIDE * tol:
             mode = STICK  # it has not come to the rim
         if mode == BEGINS:
-            mode = SLIP if (out >= -tol and start.ahead > 0.0) or (T > 0.0 and out > tol) else STICK
+            mode = SLIP if slips_at_once else STICK
         u = left if mode == STICK else even_part(R, T * start.vel + tol, left, SHORTEST * h)
         if u < t:
             k = PART
         if arms is not None and k == PART:
             fill(u, None, arms, tools.times, PART)
         if mode == STICK:
-            of = sticks(e, i, w, top, R, u, k, tol, T, modes, arms, tools, look)
+            of = sticks(e, i, w, top, R, most, u, k, tol, T, modes, arms, tools, look)
             stuck, stuck_moment = stuck + of.t, stuck_moment + of.t * (now + 0.5 * of.t)
         else:  # after two stretches without length slip and stick hold alike
             of = slips(e, i, w, top, start, R, u, k, zeros > 1, G, T, modes, arms, tools, look)
@@ -429,6 +477,7 @@ def rub_disc(q, e, limit, i, w, pressing, T, modes, arms, tools, look):
         zeros = 0 if of.t > 0.0 else zeros + 1
         gone += of.t
         top, R = Parabola(top.p + 2.0 * of.t * top.q, top.q), cubic_later(R, of.t)
+        freed = not of.lasts and mode == STICK
         if not of.lasts:
             mode = STICK if mode == SLIP else SLIP
     return Friction(mode, n, vel, area, moment, stuck, stuck_moment, (borne, begun * borne + borne_moment))

@@ -143,6 +143,12 @@ def slope(f, t):
 
 
 @_inline
+def multiple(factor, f):
+    """A multiple of a cubic."""
+    return Cubic(factor * f.a, factor * f.b, factor * f.c, factor * f.d)
+
+
+@_inline
 def cubic_later(f, t):
     """A cubic, its time counted from t on."""
     return Cubic(at(f, t), slope(f, t), f.c + 3.0 * f.d * t, f.d)

@@ -1,9 +1,10 @@
 """Springs whose friction falls as they are let go, and a body that they hold, in many small steps without events.
 
 Nothing here comes from the library. Lengths are in units in which the kinetic limit is L[s], L[x] = x + T x' +
-sum_j rho_j x_j as in tiny_steps.py, time is in 1/omega. A spring that sticks is let go where |L[e]| is above
-stick L[s]; one that slips has |L[e]| = L[s] until its foot would turn. Backward Euler, of first order; the body goes by
-leap-frog.
+sum_j rho_j x_j as in tiny_steps.py, time is in 1/omega; along and across the pull are the parts of a complex number.
+A spring that sticks is let go where |L[e]| is above stick L[s]; one that slips has |L[e]| = L[s], in the direction of
+the force that it would have in stick, until that is no longer than L[s]. Backward Euler, of first order; the body goes
+by leap-frog.
 """
 
 import math
@@ -13,21 +14,22 @@ from numba import njit
 
 
 @njit(error_model="numpy")
-def cofs(gap, w, motion, way, v, stick, material, body, steps, periods):
-    """COF over the kinetic one of each period, from rest in the plane.
+def cofs(gap, w, motion, way, v, stick, material, body, side, steps, periods):
+    """COF over the kinetic one of each period, complex, from rest in the plane.
 
-    motion, way: depth, and way of a shake, over a period (steps + 1,). material: T, rho, theta. body: M, C, K;
-    an infinite K does not yield.
+    motion, way: depth, and way of a shake, complex, over a period (steps + 1,). material: T, rho, theta. body, side:
+    M, C, K along the pull and across it; an infinite K does not yield.
     """
-    (T, rho, theta), (M, C, K), h, n, J = material, body, 2 * math.pi / steps, gap.size, material[1].size
-    s, e, slips, y, rate = np.zeros((1 + J, n)), np.zeros((1 + J, n)), np.zeros(n), 0.0, 0.0 if math.isinf(K) else -v
-    touched = np.zeros(n, dtype=np.bool_)
+    (T, rho, theta), h, n, J = material, 2 * math.pi / steps, gap.size, material[1].size
+    s, e, slips = np.zeros((1 + J, n)), np.zeros((1 + J, n), np.complex128), np.zeros(n, np.bool_)
+    y, rate = np.zeros(2), np.array([0.0 if math.isinf(body[2]) else -v, 0.0])
+    touched = np.zeros(n, np.bool_)
     keep = 1 / (1 + h / theta)
-    stiff, out = 1 + T / h + (rho * keep).sum(), np.zeros(periods)
+    stiff, out = 1 + T / h + (rho * keep).sum(), np.zeros(periods, np.complex128)
     for period in range(periods):
-        shear = press = 0.0
+        shear, press = 0j, 0.0
         for step in range(steps):
-            dx, force = h * (v + rate) + way[step + 1] - way[step], 0.0
+            dx, force = h * (v + complex(rate[0], rate[1])) + way[step + 1] - way[step], 0j
             for i in range(n):
                 fs, fe = s[0, i], e[0, i]  # forces without a move
                 for j in range(J):
@@ -36,22 +38,20 @@ def cofs(gap, w, motion, way, v, stick, material, body, steps, periods):
                 dz = motion[step + 1] - motion[step]
                 now = 1.0 if touched[i] or p == 0 or dz <= 0 else min((p - fs) / (stiff * dz), 1.0)  # since the touch
                 f = fe + stiff * now * dx  # what it is in stick
-                if slips[i] * (f - slips[i] * p) <= 0:
-                    slips[i] = 0.0
-                if slips[i] == 0.0 and abs(f) > stick * p:
-                    slips[i] = math.copysign(1.0, f)
-                if slips[i] != 0.0:
-                    f = slips[i] * p
+                slips[i] = abs(f) > (1.0 if slips[i] else stick) * p
+                if slips[i]:
+                    f *= p / abs(f)
                 ds, de = (p - fs) / stiff, (f - fe) / stiff
                 s[0, i], e[0, i] = s[0, i] + ds, e[0, i] + de
                 for j in range(J):
                     s[1 + j, i], e[1 + j, i] = keep[j] * (s[1 + j, i] + ds), keep[j] * (e[1 + j, i] + de)
                 touched[i] = p > 0
-                slips[i] = slips[i] if touched[i] else 0.0
+                slips[i] &= touched[i]
                 force, press = force + w[i] * f, press + w[i] * p
             shear += force
-            if math.inf > K:
-                y += h * rate
-                rate = (rate * (M - 0.5 * h * C) - h * (force + K * y)) / (M + 0.5 * h * C)
+            for axis, (M, C, K), pull in ((0, body, force.real), (1, side, force.imag)):
+                if math.inf > K:
+                    y[axis] += h * rate[axis]
+                    rate[axis] = (rate[axis] * (M - 0.5 * h * C) - h * (pull + K * y[axis])) / (M + 0.5 * h * C)
         out[period] = shear / press
     return out

@@ -221,14 +221,15 @@ def kernel_of(kind: Kind) -> Kernel:
         x2, at = taken(block, at, gap.size if has_limit is not None else 0)
         a2, at = taken(block, at, 3 * n_t if has_limit is not None else 0)
         stick, at = taken(block, at, 1 if has_limit is not None else 0)
-        was = x[x.size if in_plane is not None else s.size + N_BODY :]  # along a line, where friction falls
+        moves, modes_at = taken(x, 0, (s.size + N_BODY) * int(block[N_AXES]))
+        was = x[modes_at:]  # none unless friction falls
         strengths = Strengths(coulomb, x2, a2.reshape((a2.size // 3, 3)), stick, was, np.empty(was.size))
         flight, at = taken(block, at, n_t if has_flight is not None else 0)
         modes = if_there(Modes(mu, out.reshape((1 + J, K)), into.reshape((K, 1 + J))), has_modes)
         law = Law(block[OF_T], modes, if_there(Arms(rho, rate), has_arms))
         shake, shake_dot = vectors(along, across, in_plane), vectors(along_dot, across_dot, in_plane)
         motion = Motion(z, z_dot, v, shake, shake_dot)
-        state = as_numbers(x, in_plane)
+        state = as_numbers(moves, in_plane)
         e = state[: s.size].reshape(s.shape)
         body, side = body_at(block, ALONG), if_there(body_at(block, ACROSS), in_plane)
         tools = new_tools(body.h, law.modes, law.arms, 0.0 * e[0, 0], gap.size)

@@ -27,18 +27,19 @@ class MarchState:
     __slots__ = ("body", "e", "modes", "s", "x")
 
     def __init__(self, x: Array, s: Array) -> None:
-        self.x = x  #: (n_x,) extensions, the body, modes; real parts and imaginary ones in turn
-        vector: NDArray[Any] = x if x.size < 2 * (s.size + N_BODY) else x.view(complex)
+        #: (n_x,) extensions and the body, real parts and imaginary ones in turn; and modes
+        self.x = x
+        moved = (s.size + N_BODY) * (1 if x.size < 2 * (s.size + N_BODY) else 2)
+        vector: NDArray[Any] = x[:moved] if moved == s.size + N_BODY else x[:moved].view(complex)
         self.s = s  #: (1 + J, n) compressions, and their arms
         self.e: NDArray[Any] = vector[: s.size].reshape(s.shape)  #: (1 + J, n) extensions and arms
         self.body = vector[s.size : s.size + N_BODY]  #: (N_BODY,) see body.py
-        self.modes = vector[s.size + N_BODY :]  #: (n,) of the springs where friction falls, else none (limit.py)
+        self.modes = x[moved:]  #: (n,) of the springs where friction falls, else none (limit.py)
 
     @classmethod
     def of(cls, e: NDArray[Any], s: Array, body: NDArray[Any], modes: Array = NO_MODES) -> MarchState:
         """The state of these parts, copied."""
-        parts = [e.ravel(), body, *([modes] if modes.size else [])]
-        return cls(np.concatenate(parts).view(float), s.copy())
+        return cls(np.concatenate([e.ravel().view(float), body.view(float), modes]), s.copy())
 
     def copy(self) -> MarchState:
         """A state that can be marched on without a change of this one."""

@@ -221,7 +221,7 @@ class Stepper:
             sums[SHAKE_WORK] = self._work_of(scaled.drive.along, trace.area.real, trace.moment.real)
         limits = scaled.strengths
         if limits is not None:
-            limits = limits._replace(was=passed.modes.real, now=np.zeros_like(passed.modes.real))
+            limits = limits._replace(was=passed.modes, now=np.zeros_like(passed.modes))
         loop.look(passed.e, passed.s, scaled.springs, limits, self.motion, scaled.law, trace, seen)
         if scaled.drive.across is None:
             sums[LEAST_SLIP] = min(sums[LEAST_SLIP], least_between(F[:, 2]))

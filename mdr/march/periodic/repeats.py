@@ -14,12 +14,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mdr.march.dynamics.body import RATE, U
 from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import Periods, Stepper, joined
 from mdr.march.periodic.orbit import Orbit
 from mdr.march.periodic.settling import Settling
-from mdr.tools.arrays import EXACT, Array
+from mdr.tools.arrays import EXACT
 from mdr.tools.iterate import iterate
 from mdr.tools.progress import time_is_over
 
@@ -62,7 +61,7 @@ def repeated(
             if back[0] or time_is_over():
                 break
         periods = joined(parts)
-        late = periods.cof.size >= least and _averaged(periods.cof)[1] <= accuracy / 4
+        late = periods.cof.size >= least and _averaged(periods)[1] <= accuracy / 4
         return _March(states, periods, back, bool(back[0]) or late or time_is_over() or periods.cof.size >= most)
 
     at = iterate(go_on, lambda at: at.over, _March([start], Periods(*np.empty((3, 0)))))
@@ -70,15 +69,17 @@ def repeated(
     if n:
         least_slip = stepper.least_slip(stepper.last, float(cofs[-1]))
         kind = "periodic" if n == 1 else f"period-{n}"
-        return Orbit(state, Settling(float(cofs[-n:].mean()), spread, True, kind, gain=1.0), least_slip)
-    mean, spread = _averaged(cofs)
+        across = float(at.periods.cof_y[-n:].mean())
+        settling = Settling(float(cofs[-n:].mean()), spread, True, kind, gain=1.0, across=across)
+        return Orbit(state, settling, least_slip)
+    mean, spread = _averaged(at.periods)
     if cofs.size < DRAWN * pre_sliding:
         why = f"after {cofs.size} periods springs have not been let go often enough, which takes {pre_sliding:.3g} each"
-        return Orbit(state, Settling(mean, UNKNOWN, False, "unsettled", why=why))
+        return Orbit(state, Settling(mean.real, UNKNOWN, False, "unsettled", why=why, across=mean.imag))
     if time_is_over() and cofs.size < most:
         why = f"the time limit is over after {cofs.size} periods"
-        return Orbit(state, Settling(mean, UNKNOWN, False, "unsettled", why=why))
-    return Orbit(state, Settling(mean, min(spread, UNKNOWN), True, "averaged"))
+        return Orbit(state, Settling(mean.real, UNKNOWN, False, "unsettled", why=why, across=mean.imag))
+    return Orbit(state, Settling(mean.real, min(spread, UNKNOWN), True, "averaged", across=mean.imag))
 
 
 def beside_jump(stepper: Stepper) -> bool:
@@ -91,15 +92,18 @@ def beside_jump(stepper: Stepper) -> bool:
     return stepper.scaled.body.rigid and abs(v - float(rate.max())) < NEAR * missed
 
 
-def _averaged(cofs: Array) -> tuple[float, float]:
-    """Mean of the second half, and its statistical error: no less than what its halves differ by, if it still moves."""
+def _averaged(periods: Periods) -> tuple[complex, float]:
+    """Mean of the second half, along the pull and across it, and its statistical error: no less than what its halves
+    differ by, if it still moves.
+    """
+    cofs = periods.cof + 1j * periods.cof_y
     half = cofs[cofs.size // 2 :]
     size = half.size // BLOCKS
     if not size:
-        return float(cofs.mean()), UNKNOWN
+        return complex(cofs.mean()) if cofs.size else 0j, UNKNOWN
     means = half[half.size - size * BLOCKS :].reshape(BLOCKS, size).mean(axis=1)
-    moved = abs(float(means[BLOCKS // 2 :].mean() - means[: BLOCKS // 2].mean()))
-    return float(means.mean()), max(SIGMAS * float(means.std(ddof=1)) / np.sqrt(BLOCKS), moved)
+    moved = abs(complex(means[BLOCKS // 2 :].mean() - means[: BLOCKS // 2].mean()))
+    return complex(means.mean()), max(SIGMAS * float(means.std(ddof=1)) / np.sqrt(BLOCKS), moved)
 
 
 def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]:
@@ -128,7 +132,8 @@ def _apart(stepper: Stepper, one: MarchState, other: MarchState) -> float:
     scaled = stepper.scaled
     ratios = np.concatenate([[1.0], scaled.rheology.rho])
     force = float(ratios @ (np.abs(one.e - other.e) @ scaled.springs.w))
-    body = np.abs(one.body - other.body)
-    if not scaled.body.rigid:
-        force += (scaled.body.K + 1) * float(body[U]) + float(np.sqrt(scaled.body.M * (scaled.body.K + 1)) * body[RATE])
+    apart = one.body - other.body
+    for body, (u, rate) in ((scaled.body, apart.real), (scaled.body_across, apart.imag)):
+        if not body.rigid:
+            force += (body.K + 1) * abs(float(u)) + np.sqrt(body.M * (body.K + 1)) * abs(float(rate))
     return force / stepper.mean_limit
