@@ -9,6 +9,7 @@ from mdr.spring.contact import Each, Look, Springs
 from mdr.spring.dragged import turned_straight
 from mdr.spring.energies import N_SUMS
 from mdr.spring.law import law_of
+from mdr.spring.limit import Strength
 from mdr.spring.path import Path
 from mdr.tools.jit import compiled
 
@@ -32,16 +33,16 @@ def some_springs(law, rng, n=40):
     return gap, np.full(n, 1 / n), s, e
 
 
-def answer(law, s, e, gap, w, path, h, rates=None):
+def answer(law, s, e, gap, w, path, h, rates=None, limit=None):
     """That of the row in the plane; s and e are updated. rates: other ones at the end than those of the parabolas."""
-    return answer_and_springs(law, s, e, gap, w, path, h, rates)[0]
+    return answer_and_springs(law, s, e, gap, w, path, h, rates, limit)[0]
 
 
-def answer_and_springs(law, s, e, gap, w, path, h, rates=None):
+def answer_and_springs(law, s, e, gap, w, path, h, rates=None, limit=None):
     """The same, and what each spring does."""
     rates, n = rates or (path.z_1 + 2 * h * path.z_2, path.x_1 + 2 * h * path.x_2), gap.size
     tools, each = tools_for(law, h, n, in_plane=True), Each(np.empty(n), np.empty(n, complex), np.empty(n))
-    return row(s, e, Springs(gap, w), None, path, *rates, *law, tools, None, each, None), each
+    return row(s, e, Springs(gap, w), limit, path, *rates, *law, tools, None, each, None), each
 
 
 def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
@@ -51,9 +52,9 @@ def stepped(law, springs, x_1, x_2, h=H, z_1=0.05):
     return answer(law, s, e, gap, w, Path(0.0, z_1, 0.0, complex(x_1), complex(x_2)), h), s, e
 
 
-def a_period(law, springs, angle, n_steps=24):
+def a_period(law, springs, angle, n_steps=24, limit=None):
     """A period that is turned by an angle: areas of the force and extensions at its end, both turned back; and after
-    each step the shares of springs that stick and that do not touch.
+    each step the shares of springs that stick and that do not touch. limit: of friction that falls.
     """
     gap, w, s, e = springs
     h, turn, areas, shares = 2 * np.pi / n_steps, np.exp(1j * angle), [], []
@@ -68,19 +69,28 @@ def a_period(law, springs, angle, n_steps=24):
         x, z = [rate(u) for u in (t, t + h)], [np.cos(u) for u in (t, t + h)]
         q, z_2 = (x[1] - x[0]) / (2 * h), (z[1] - z[0]) / (2 * h)
         path = Path(np.sin(t), (np.sin(t + h) - np.sin(t)) / h - z_2 * h, z_2, x[0], q)
-        of = answer(law, s, e, gap, w, path, h)
+        of = answer(law, s, e, gap, w, path, h, limit=limit)
+        if limit is not None:
+            limit.was[:] = limit.now
         areas.append(of.area)
         shares.append((of.sticking, np.mean(s[0] > np.sin(t + h) - gap + 1e-9)))
     return np.array(areas) / turn, e / turn, np.array(shares)
 
 
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
-def test_turned_axes_turn_a_period_with_all_events(law):
+@pytest.mark.parametrize(("name", "stick"), [*((name, 1.0) for name in LAWS), ("elastic", 1.5)])
+def test_turned_axes_turn_a_period_with_all_events(name, stick):
+    law = LAWS[name]
     springs = some_springs(law, np.random.default_rng(4))
-    areas, e, shares = a_period(law, springs, 0.0)
+
+    def period(angle):
+        nothing = np.zeros(springs[0].size)
+        falls = Strength(1.0, nothing, 0.0, 0.0, 0.0, stick, nothing.copy(), nothing.copy())
+        return a_period(law, springs, angle, limit=falls if stick > 1 else None)
+
+    areas, e, shares = period(0.0)
     assert (np.ptp(shares, axis=0) > 0.05).all()  # some stick and slip, some leave and touch
     for angle in (0.5, np.pi / 2, 4.0):
-        turned, e_turned, _ = a_period(law, springs, angle)
+        turned, e_turned, _ = period(angle)
         assert_allclose(turned, areas, atol=1e-12)
         assert_allclose(e_turned, e, atol=1e-12)
 
