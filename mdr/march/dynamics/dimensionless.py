@@ -170,6 +170,11 @@ class ScaledContact:
         return 1 if self.drive.across is None else 2
 
     @property
+    def light(self) -> bool:
+        """Whether a body moves as a light one (body.py) in some direction."""
+        return self.body.light or self.body_across.light
+
+    @property
     def in_plane(self) -> Is:
         """Whether they are vectors of the plane, as a kernel is told."""
         return None if self.drive.across is None else True

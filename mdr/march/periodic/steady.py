@@ -187,11 +187,10 @@ def steady(
 
 def resolves(scaled: ScaledContact, resolution: Resolution) -> None:
     """Refuse steps that do not resolve the body where friction falls."""
-    if scaled.limit.falls and scaled.body.light:
+    if scaled.limit.falls and scaled.light:
         raise ValueError(
-            f"steps_per_period = {resolution.steps}, of a run or of one with fewer steps beside it, is too coarse for "
-            "friction that falls: steps must resolve how fast the body swings on the contact; raise steps_per_period, "
-            "or the mass of the body"
+            f"steps_per_period = {resolution.steps} is too coarse for friction that falls: steps must resolve how fast "
+            "the body swings on the contact, and how dashpots stop it; raise steps_per_period, or the mass of the body"
         )
 
 

@@ -15,6 +15,9 @@ plane, less than a tenth of what is asked for. Added is what no companion shows.
 for, steps or springs are doubled, as these companions tell, until a run would be too dear. Once, in the place of more
 springs, the row is cut where the run shows that they begin to slip back.
 
+Where friction falls steps have to resolve the body. Where half of them do not, the companions have four times as many:
+run minus (1) is then three quarters of the error at second order, and counts four times.
+
 Where a run has found its periodic state, the next one begins its search there.
 """
 
@@ -54,6 +57,7 @@ UNEVENLY = 1.5  #: times what springs may miss: between 128 and 256 of them an e
 BY_CHANCE = 3.0  #: times the difference to a run with three quarters of steps and springs: what the bound is at least
 AGREED = 0.1  #: of the accuracy: least bound in the plane, where runs were seen to agree by chance (with arms)
 MOST_GAINED = 8.0  #: by which errors of third order fall where numbers are doubled
+FINER = 4  #: times the steps of companions where coarser ones do not resolve the body, and what they tell of its error
 UNRESOLVED = 2.0  #: times the difference to a run whose steps resolve more, as that may miss as much again
 
 
@@ -65,11 +69,12 @@ def default_springs(case: SlidingContact) -> int:
 def default_steps(case: SlidingContact) -> int:
     """Steps per period with which a search for the accuracy begins: their half still resolves the oscillation of the
     body on the contact, if that can be afforded. In the plane three eighths of them resolve how dashpots stop it too:
-    a body that is stopped within a step is solved for together with its springs, which fails where friction turns.
+    a body that is stopped within a step is solved for together with its springs, which fails where friction turns, or
+    falls.
     """
     plain, rate = N_STEPS * _harder(case)[1] * _one_each(case), fast_ratio(case)
     resolved = 0 if np.isinf(rate) else _rounded(2.02 * RESOLVED * rate)
-    stop = stopping_rate(case) if case.moves_across else 0.0
+    stop = stopping_rate(case) if case.moves_across or case.friction.stick > 1 else 0.0
     stopped = _rounded(2.02 * np.pi * 8 / 3 * stop) if 2 * np.pi * stop <= MOST_STEPS else 0
     return min(max(plain, resolved, stopped), MOST_STEPS)
 
@@ -163,6 +168,8 @@ def companions(case: SlidingContact, resolution: Resolution, alike: float | None
     n_t, n = resolution.steps, resolution.n_springs
     cut = resolution if alike is None else resolution._replace(alike=alike)
     rows, more = (resolution, cut, cut, cut), _one_each(case)
+    if case.friction.stick > 1 and at_hand(case, resolution.of_size(n_t // 2 + more))[1].light:
+        n_t *= FINER
     return Companions(*(row.of_size(k * n_t // 8 + more, m * n // 8) for row, (k, m) in zip(rows, shares, strict=True)))
 
 
@@ -307,8 +314,9 @@ def _missed_by(runs: _Runs, main: MarchEnd) -> Missed:
     if runs.case.moves_across:
         by_chance += [Companion(0.0, least=AGREED * main.resolution.accuracy)]
     of_steps = 1.0 if main.scaled.limit.order == 2 else UNEVENLY
+    by_steps = of_steps * (1.0 if steps.resolution.steps < main.resolution.steps else FINER)
     by_springs = Companion(0.0 if as_one else _apart(steps, half), of_steps * UNEVENLY)
-    return Missed(Companion(_apart(main, steps), of_steps), by_springs, tuple(by_chance))
+    return Missed(Companion(_apart(main, steps), by_steps), by_springs, tuple(by_chance))
 
 
 def _of_unresolved(runs: _Runs, main: MarchEnd) -> float:
