@@ -9,7 +9,7 @@ from typing import Any
 
 import mdr
 from mdr.case.displacement import inner_part
-from mdr.case.domain import COULOMB, Domain
+from mdr.case.domain import NO_STRENGTH, Domain
 from mdr.commands.arguments import add_reading, path_of, plain_number, read_file, velocity, whole_number
 from mdr.commands.output import Exit, WrongInput, answer, picked
 from mdr.commands.written import add_output, make_folder, write_found
@@ -42,13 +42,14 @@ def add_options_of_record(command: argparse.ArgumentParser) -> None:
 def record(args: argparse.Namespace, _: None) -> int:
     """Follow the motion, write and print."""
     case = mdr.read_case(args.case)
-    Domain((COULOMB,), "mdr run or mdr curve").seen(case, "slide_record")
+    Domain((NO_STRENGTH,), "mdr run or mdr curve").seen(case, "slide_record")
     make_folder(args)
     recorded = read_file(mdr.read_record, args.motion, args)
     try:
         rigid = replace(case, pull=mdr.RigidPull())  # the record is the way of the indenter itself
         motion = with_displacements(recorded, args.high_pass, case, args.v_0 and args.v_0.on(rigid))
-        found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs)
+        mu_s = case.friction.stick * case.mu_0
+        found = mdr.slide_record(case.indenter, case.material, case.mu_0, **motion, n_springs=args.n_springs, mu_s=mu_s)
     except ValueError as fault:
         raise WrongInput(f"{args.motion}: {fault}") from None
     values = picked(found, "mu_0", "cof", "cof_y", "cof_error", "late_cof", "loss_cof", "mean_F_z", "n_springs")

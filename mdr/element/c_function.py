@@ -15,6 +15,7 @@ from numba.extending import intrinsic
 from mdr.element.kernels import SpringRow, steps
 from mdr.spring.copies import put
 from mdr.spring.law import Arms, Law, Modes
+from mdr.spring.limit import Strength
 from mdr.tools.arrays import SAME, Array
 
 REFUSED, GOOD = -1, 1
@@ -39,7 +40,8 @@ def numbers(address, shape):
 def c_function(row: SpringRow, n_state: int, u_z_max: float, mark: float) -> Any:
     """numba's cfunc of a step of these springs; the arrays of the row are used where they lie."""
     T, modes, arms = row.law
-    n, units, deepest = row.gap.size, row[3:], u_z_max * (1 + SAME)
+    n, units, deepest = row.gap.size, row[3:7], u_z_max * (1 + SAME)
+    stick = None if row.limit is None else row.limit.stick
     gap, w = _at(row.gap), _at(row.w)
     viscous, J = modes is not None, 0 if arms is None else arms.rho.size
     K = 0 if modes is None else modes.mu.size
@@ -58,7 +60,11 @@ def c_function(row: SpringRow, n_state: int, u_z_max: float, mark: float) -> Any
             held = Modes(numbers(of_modes[0], K), numbers(of_modes[1], (1 + J, K)), numbers(of_modes[2], (K, 1 + J)))
         if of_arms is not None:
             arms_of = Arms(numbers(of_arms[0], J), numbers(of_arms[1], J))
-        springs = SpringRow(numbers(gap, n), numbers(w, n), Law(T, held, arms_of), *units)
+        limit = None
+        if stick is not None:
+            nothing = np.zeros(n)
+            limit = Strength(1.0, nothing, 0.0, 0.0, 0.0, stick, nothing, nothing)
+        springs = SpringRow(numbers(gap, n), numbers(w, n), Law(T, held, arms_of), *units, limit)
         after, force = before.copy(), np.empty((1, 3))
         stiff = np.empty((1 if tangent != 0 else 0, 3, 3))
         if steps(after, to.copy(), dt if viscous else 1.0, springs, mark, force, stiff) != 0:

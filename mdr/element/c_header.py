@@ -45,6 +45,11 @@ def header(element: ContactElement, name: str, told: str) -> str:
     if law.arms is not None:
         what = "an elastic or a Kelvin material can be exported, not one with Maxwell arms"
         raise ValueError(f"{what}, got {element.material}: use element.step or element.address")
+    if row.limit is not None:
+        raise ValueError(
+            f"one coefficient of friction can be exported, not mu_s = {element.mu_s:.6g} above mu_0 = "
+            f"{element.mu_0:.6g}: use element.step or element.address, or leave mu_s out"
+        )
     values = {word: named(one if law.T > 0 else other, name) for word, (one, other) in OF_DASHPOT.items()}
     values |= {
         "NAME": name,

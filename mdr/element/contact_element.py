@@ -27,6 +27,7 @@ from mdr.materials.operator import Rheology
 from mdr.normal.spring_grid import Depths, nodes
 from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
+from mdr.spring.limit import falling
 from mdr.tools.arrays import SAME, Array
 from mdr.tools.checks import count, finite_array, instance, not_negative, positive, real_array
 from mdr.tools.compiler import tell_if_missing
@@ -45,6 +46,10 @@ def _springs(name: str, value: Any, note: str = "") -> int:
     return count(name, value, MIN_SPRINGS)
 
 
+def _or_none(name: str, value: Any, note: str = "") -> float | None:
+    return None if value is None else positive(name, value, note)
+
+
 @dataclass(frozen=True)
 class ContactElement(Record):
     """A contact that answers force [N] and new state for each step of a host's own motion.
@@ -53,7 +58,7 @@ class ContactElement(Record):
 
     A state is one array: the last position u [m], the work done on the contact so far [J], then compressions s of the
     springs over u_z_max, extensions e_x and e_y over mu_0 kappa u_z_max, each with its Maxwell arms, and a mark of the
-    element; see `state_names`.
+    element; see `state_names`. Where mu_s is above mu_0 each spring has its mode too, a number of `State`.
 
     Examples
     --------
@@ -72,22 +77,28 @@ class ContactElement(Record):
     n_springs: int = field(
         kw_only=True, default=256, metadata=facts("-", "springs at x > 0, each for a pair; at least 16", _springs)
     )
+    mu_s: float | None = field(
+        kw_only=True, default=None, metadata=facts("-", "static coefficient; none is mu_0", _or_none)
+    )
 
     def __post_init__(self) -> None:
         check_fields(self)
         instance("indenter", self.indenter, Indenter)
         instance("material", self.material, Material)
+        stick_on(self.material, self.mu_s, self.mu_0, in_plane=True)
         _ = self._row  # its springs refuse what no contact can be
 
     @property
     def n_state(self) -> int:
         """Numbers of a state."""
-        return N_HEAD + 3 * self._rows * self._row.gap.size + 1
+        n = self._row.gap.size
+        return N_HEAD + 3 * self._rows * n + (0 if self._row.limit is None else n) + 1
 
     @property
     def state_names(self) -> tuple[str, ...]:
         """A name for each number of a state, such as "u_x" and "e_x[17]"; of an arm "e_x_1[17]"."""
         rows = [f"{name}_{j}" if j else name for name in ("s", "e_x", "e_y") for j in range(self._rows)]
+        rows += [] if self._row.limit is None else ["mode"]
         springs = (f"{name}[{i}]" for name in rows for i in range(self._row.gap.size))
         return "u_x", "u_y", "u_z", "work", *springs, "element"
 
@@ -126,7 +137,7 @@ class ContactElement(Record):
         state[..., :3] = u
         n = self._row.gap.size
         state[..., N_HEAD : N_HEAD + n] = np.maximum(u[..., 2:] / self._row.length_z - self._row.gap, 0)
-        state[..., 3], state[..., -1] = stored(self._row, state[..., N_HEAD:-1]), self._mark
+        state[..., 3], state[..., -1] = stored(self._row, state[..., N_HEAD:]), self._mark
         return state
 
     def step(self, state: ArrayLike, dt: float, u: ArrayLike, tangent: bool = False) -> tuple[Array, ...]:
@@ -213,7 +224,7 @@ class ContactElement(Record):
         TypeError, ValueError
             For the state of another element.
         """
-        return stored(self._row, self._checked(state)[..., N_HEAD:-1])
+        return stored(self._row, self._checked(state)[..., N_HEAD:])
 
     def dissipated(self, state: ArrayLike) -> Array:
         """Energy [J] that friction and material have turned into heat since the contact was at rest.
@@ -246,7 +257,8 @@ class ContactElement(Record):
 
     @cached_property
     def _row(self) -> SpringRow:
-        return springs_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs)
+        stick = stick_on(self.material, self.mu_s, self.mu_0, in_plane=True)
+        return springs_of(self.indenter, self.material, self.mu_0, self.u_z_max, 0.0, self.n_springs, stick)
 
     @cached_property
     def _mark(self) -> float:
@@ -281,10 +293,27 @@ class ContactElement(Record):
         return us
 
 
-def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int) -> SpringRow:
-    """The springs for depths from `least` to `deepest` [m]; refuses what no case takes.
+def stick_on(material: Material, mu_s: float | None, mu_0: float, in_plane: bool) -> float:
+    """Static coefficient over mu_0; refuses one below it, and arms in the plane, where a step cuts itself in parts."""
+    if mu_s is None or mu_s == mu_0:
+        return 1.0
+    if mu_s < mu_0:
+        raise ValueError(f"mu_s = {mu_s:.6g} must not be below mu_0 = {mu_0:.6g}: raise mu_s, or leave it out")
+    if in_plane and material.contact_arms:
+        raise ValueError(
+            "mu_s above mu_0 in the plane is for an elastic or a Kelvin material, not one with Maxwell arms, got "
+            f"{type(material).__name__}: ask slide_record along x, or mdr.slide"
+        )
+    return mu_s / mu_0
 
-    They are cut where contact is lost at the least depth, which a dashpot leaves at none.
+
+def springs_of(
+    indenter: Indenter, material: Material, mu_0: float, deepest: float, least: float, n: int, stick: float = 1.0
+) -> SpringRow:
+    """The springs for depths from `least` to `deepest` [m], none of which slips yet; refuses what no case takes.
+
+    They are cut where contact is lost at the least depth, which a dashpot leaves at none. stick: static coefficient
+    over mu_0.
     """
     tell_if_missing()
     refuse_other_materials(material, 1.0)
@@ -304,14 +333,14 @@ def springs_of(indenter: Indenter, material: Material, mu_0: float, deepest: flo
         gap, w = gap[:1], np.ones(1)
     rheology, length_x = Rheology.of(material, 1.0), mu_0 * material.mindlin_ratio * deepest  # in seconds
     law = law_of(rheology.T, rheology.rho, rheology.theta)
-    return SpringRow(
-        gap, w, law, length_x, deepest, material.G_star * total * length_x, material.E_star * total * deepest
-    )
+    forces = material.G_star * total * length_x, material.E_star * total * deepest
+    return SpringRow(gap, w, law, length_x, deepest, *forces, falling(stick, gap.size))
 
 
 def mark_of(row: SpringRow) -> float:
     """A whole number for these springs, by which their states are known: to 24 bits, those that processors agree on."""
-    numbers = np.concatenate([np.ravel(one) for one in (*row[:2], row.law.T, *(row.law.arms or ()), *row[3:])])
+    falls = () if row.limit is None else (row.limit.stick,)
+    numbers = np.concatenate([np.ravel(one) for one in (*row[:2], row.law.T, *(row.law.arms or ()), *row[3:7], *falls)])
     parts, powers = np.frexp(numbers)
     return float(int(sha256(np.stack([np.rint(2**24 * parts), powers]).astype("<i8").tobytes()).hexdigest()[:12], 16))
 
@@ -329,8 +358,9 @@ def relaxed(row: SpringRow, depth: float) -> Array:
 
 
 def stored(row: SpringRow, springs: Array) -> Array:
-    """Elastic energy [J] of springs (..., 3 (1 + J) n)."""
+    """Elastic energy [J] of springs (..., 3 (1 + J) n), whatever follows them."""
     ratios = ratios_of(row)
+    springs = springs[..., : 3 * ratios.size * row.gap.size]
     squares = (springs.reshape(*springs.shape[:-1], 3, ratios.size, row.gap.size) ** 2 @ row.w) @ ratios
     units = np.array([row.force_z * row.length_z, *2 * [row.force_x * row.length_x]])
     return np.asarray(0.5 * squares @ units)

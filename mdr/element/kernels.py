@@ -15,6 +15,7 @@ from mdr.element.cuts import MOST_PARTS, Cuts, Pulled, cut, cut_again
 from mdr.spring.contact import Each, Springs, press
 from mdr.spring.copies import put
 from mdr.spring.law import Law
+from mdr.spring.limit import Strength, give_modes, of_springs, step_over, stick_of, take_modes
 from mdr.spring.motion import glassy
 from mdr.spring.path import Path
 from mdr.spring.row import row
@@ -50,6 +51,7 @@ class SpringRow(NamedTuple):
     length_z: float  #: unit of depth [m]
     force_x: float  #: of all springs stretched by length_x [N]
     force_z: float  #: [N]
+    limit: Strength | None = None  #: of friction that falls, and modes of the springs; None of Coulomb's
 
 
 def straight(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts):
@@ -69,7 +71,8 @@ def _at_once(s, e, z_0, way_x, way_z, contact, T, modes, arms, tools, each, cuts
     h = tools.times.h
     z_1, x_1 = way_z / h, way_x / h
     path = Path(z_0, z_1, 0.0, x_1, 0.0 * x_1)
-    of = row(s, e, Springs(contact.gap, contact.w), None, path, z_1, x_1, T, modes, arms, tools, None, each, None)
+    springs, limit = Springs(contact.gap, contact.w), contact.limit
+    of = row(s, e, springs, limit, path, z_1, x_1, T, modes, arms, tools, None, each, None)
     return Pulled(of.end, of.normal_end, of.area, of.normal_area)
 
 
@@ -108,9 +111,9 @@ def fault(state, contact, mark):
 
     A spring in contact is as short as the gap left to it, one that flies is shorter, and none was ever shorter than at
     the greatest depth. Without a memory of the material none flies compressed, and the extension is within the
-    compression, as is the force.
+    compression, as is the force; in stick up to a multiple, where friction falls.
     """
-    n, rounding = contact.gap.size, 2 * SAME
+    n, rounding, stick = contact.gap.size, 2 * SAME, stick_of(contact.limit)
     parts = parts_of(state.size, n)
     for one in state:
         if not np.isfinite(one):
@@ -123,7 +126,7 @@ def fault(state, contact, mark):
         most = 1.0 - contact.gap[i] + rounding
         fits &= (s >= max(depth - contact.gap[i], 0.0) - rounding) & (s <= most)
         if parts == 1 and contact.law.T == 0.0:
-            fits &= (s <= max(depth - contact.gap[i], 0.0) + rounding) & (x * x + y * y <= (s + rounding) ** 2)
+            fits &= (s <= max(depth - contact.gap[i], 0.0) + rounding) & (x * x + y * y <= (stick * s + rounding) ** 2)
     return 0 if fits else IMPOSSIBLE
 
 
@@ -186,7 +189,8 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone, 
             for k in range(3):
                 K[k, j] += w * slope(room.F, k, i, d)
             continue
-        one = SpringRow(contact.gap[i : i + 1], contact.w[i : i + 1], contact.law, *contact[3:])
+        own = contact.gap[i : i + 1], contact.w[i : i + 1], contact.law
+        one = SpringRow(*own, *contact[3:7], of_springs(contact.limit, i, i + 1))
         own_s, own_e = s[:, i : i + 1].copy(), e[:, i : i + 1].copy()
         for k in range(3):
             alone.F[0, k, 0] = room.F[0, k, i]
@@ -214,6 +218,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
     state or with what comes out.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
+    contact = SpringRow(*contact[:7], of_springs(contact.limit, 0, n))
     tools, unit = new_tools(h, modes, arms, 0j, n), (contact.length_x, contact.length_x, contact.length_z)
     force = contact.force_x, contact.force_x, contact.force_z
     parts = parts_of(states.shape[1], n)
@@ -233,7 +238,8 @@ def steps(states, us, h, contact, mark, pull, tangents):
             for i in range(n):
                 at = N_HEAD + j * n + i
                 s[j, i], e[j, i] = state[at], complex(state[at + parts * n], state[at + 2 * parts * n])
-        z_0 = state[2] / contact.length_z
+        of_modes, z_0 = state[N_HEAD + 3 * parts * n : -1], state[2] / contact.length_z  # none but where friction falls
+        take_modes(contact.limit, of_modes)
         for k in range(3):
             way[k] = us[b, k] / unit[k] - state[k] / unit[k]
         cuts.n[0] = 0
@@ -241,6 +247,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
         now, area = (of.end.real, of.end.imag, of.normal_end), (of.area.real, of.area.imag, of.normal_area)
         put(room.s, new_s)
         put(room.e, new_e)
+        give_modes(contact.limit, of_modes)
         if tangents.size > 0:
             forces(room.each, room.F[0])
             far = max(abs(way[0]), abs(way[1]), abs(way[2]))
@@ -308,7 +315,8 @@ def depth_under(load, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
 
 @_jit
 def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
-    """Follow a record from sample to sample, of the numbers start to stop; s, e (1 + J, n) are changed.
+    """Follow a record from sample to sample, of the numbers start to stop; s, e (1 + J, n) are changed, and the modes
+    of contact.limit.
 
     t, x (n_t,): instants [s], scaled way; x and e are complex in the plane. depth
     (n_t,): scaled, filled where there is a load (n_t,). parts: of an interval. out (n_t, 6): force at each sample, and
@@ -344,6 +352,7 @@ def follow(s, e, t, x, depth, load, parts, contact, out, start, stop):
                 z_2 = depth_under(under, scale, s, z, ahead, contact, T, modes, arms, tools, trial)
                 rate = (z_2 - z) / h
             of = straight(s, e, z, x_2 - x_1, z_2 - z, contact, T, modes, arms, tools, None, None)
+            step_over(contact.limit)
             x_1, z = x_2, z_2
             out[k, 0], out[k, 1], out[k, 2] = of.end.real, of.end.imag, of.normal_end
             out[k, 3] += dt / h * of.area.real

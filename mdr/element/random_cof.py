@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import COULOMB, GIVEN_DEPTH, NO_SHAKE, RIGID, holds_for
+from mdr.case.domain import GIVEN_DEPTH, NO_SHAKE, NO_STRENGTH, RIGID, holds_for
 from mdr.case.spectrum import Spectrum
 from mdr.element.contact_element import relaxed, springs_of
 from mdr.element.kernels import follow
 from mdr.normal.springs import MIN_SPRINGS
+from mdr.spring.contact_modes import SLIP
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, instance, positive_array
 from mdr.tools.companions import Companion, bound
@@ -96,7 +97,9 @@ class RandomCof(Summarised, Tabled, ArrayRecord):
         return plot_random_cof(self, ax)
 
 
-@holds_for(COULOMB, RIGID, NO_SHAKE, GIVEN_DEPTH, instead="slide_record, or ContactElement, for a history of your own")
+@holds_for(
+    NO_STRENGTH, RIGID, NO_SHAKE, GIVEN_DEPTH, instead="slide_record, or ContactElement, for a history of your own"
+)
 def random_cof(
     case: SlidingContact,
     spectrum: Spectrum,
@@ -241,13 +244,16 @@ def _impulses(case: SlidingContact, u_z: Array, dt: float, velocities: Array, n_
     least, deepest = float(u_z.min()), float(u_z.max())
     if deepest <= 0:
         return found
-    row = springs_of(case.indenter, case.material, case.mu_0, deepest, least, n_springs)
-    past = _per_rate(case) * (deepest - least) / velocities + RELAXED * _relaxation(case)
+    stick = case.friction.stick
+    row = springs_of(case.indenter, case.material, case.mu_0, deepest, least, n_springs, stick)
+    past = _per_rate(case) * (stick * deepest - least) / velocities + RELAXED * _relaxation(case)
     depth, rates = u_z / row.length_z, velocities / row.length_x
     for k, lead in enumerate(np.ceil(past / dt).astype(int)):
         at = np.arange(-lead, depth.size + 1)
         t, z = dt * at, depth[at % depth.size]
         s, out = relaxed(row, z[0]), np.zeros((t.size, 6))
+        if row.limit is not None:
+            row.limit.was[:] = SLIP
         follow(s, s.copy(), t, rates[k] * t, z, np.empty(0), 1, row, out, 0, t.size - 1)
         found[k] = out[lead + 1 :, [3, 5]].sum(axis=0) * np.array([row.force_x, row.force_z])
     return found

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.element.contact_element import relaxed, springs_of, stored
+from mdr.element.contact_element import relaxed, springs_of, stick_on, stored
 from mdr.element.kernels import SpringRow, follow
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material
@@ -151,6 +151,7 @@ def slide_record(
     *,
     F_z: ArrayLike | None = None,
     n_springs: int | None = None,
+    mu_s: float | None = None,
 ) -> SlideRecord:
     """Friction [-] of a contact that moves as it was recorded.
 
@@ -176,6 +177,8 @@ def slide_record(
         Normal force [N], zero or above.
     n_springs : int, optional
         Springs at x > 0, at least 32, each for the pair at +x and -x. None takes 256.
+    mu_s : float, optional
+        Static coefficient [-], up to which a spring sticks; no less than mu_0, which it has in slip. None is mu_0.
 
     Returns
     -------
@@ -187,7 +190,8 @@ def slide_record(
     ------
     TypeError, ValueError
         For NaN, lists of different lengths, instants that do not rise, both or neither of u_z and F_z, a negative
-        force, a shape that ends before the depth, and a contact that never touches.
+        force, a shape that ends before the depth, a contact that never touches, mu_s below mu_0, and mu_s above it in
+        the plane on a material with arms.
 
     See Also
     --------
@@ -213,6 +217,7 @@ def slide_record(
     instance("indenter", indenter, Indenter)
     instance("material", material, Material)
     mu_0 = positive("mu_0", mu_0, "coefficient of friction")
+    mu_s = None if mu_s is None else positive("mu_s", mu_s, "static coefficient of friction")
     n = SPRINGS if n_springs is None else count("n_springs", n_springs, 2 * MIN_SPRINGS)
     t = instants("t", t)
     if (u_z is None) == (F_z is None):
@@ -232,8 +237,10 @@ def slide_record(
     exact = load is None and motion.y is None and not (material.tau > 0 or material.contact_arms)
     runs = [(n, 1), (n // 2, 1)] if exact else [(n, 1), (n // 2, 1), (n, 2)]
     ticker = Ticker("slide_record", sum(k * part for k, part in runs) * (t.size - 1), "springs times steps")
+    stick = stick_on(material, mu_s, mu_0, motion.y is not None)
     found = [
-        _followed(motion, springs_of(indenter, material, mu_0, deepest, least, k), part, ticker) for k, part in runs
+        _followed(motion, springs_of(indenter, material, mu_0, deepest, least, k, stick), part, ticker)
+        for k, part in runs
     ]
     best = found[0] if exact else found[-1]
     if load is not None and material.tau > 0:  # the error of its steps falls with their length

@@ -95,6 +95,38 @@ def limit_later(limit, t):
     return Strength(limit.coulomb, limit.x2, a_0, a_1, limit.a_2, limit.stick, limit.was, limit.now)
 
 
+def falling(stick, n):
+    """The limit of n springs whose friction falls, none of which slips yet; None of Coulomb's, with a stick of 1."""
+    if stick == 1.0:
+        return None
+    return Strength(1.0, np.zeros(n), 0.0, 0.0, 0.0, stick, np.zeros(n), np.zeros(n))
+
+
+@_own
+def of_springs(limit, first, end):
+    """The limit of some springs of a row, with modes of their own."""
+    if limit is None:
+        return None
+    coulomb, a_0, a_1, a_2, was = limit.coulomb, limit.a_0, limit.a_1, limit.a_2, limit.was[first:end].copy()
+    return Strength(coulomb, limit.x2[first:end], a_0, a_1, a_2, limit.stick, was, np.empty(was.size))
+
+
+@_inline
+def take_modes(limit, state):
+    """Modes of the springs from a state (n,), as a step begins."""
+    if limit is not None:
+        for i in range(limit.was.size):
+            limit.was[i] = state[i]
+
+
+@_inline
+def give_modes(limit, state):
+    """Modes of the springs into a state (n,), as a step ends."""
+    if limit is not None:
+        for i in range(limit.now.size):
+            state[i] = limit.now[i]
+
+
 @_inline
 def step_over(limits):
     """The modes at the end of a step are those at the start of the next."""

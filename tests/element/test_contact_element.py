@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from elements import BALL, DEPTH, ELASTIC, MATERIALS, MU_0, REACH, element, every_material, walk
+from elements import BALL, DEPTH, ELASTIC, KELVIN, MATERIALS, MU_0, REACH, element, every_material, walk
 from numpy.testing import assert_allclose, assert_array_equal
 
 import mdr
+from mdr.element.c_header import header
 from mdr.element.kernels import N_HEAD
 
 DT = 1e-3
@@ -118,6 +119,50 @@ def test_no_step_answers_nan(kind):
             answer = contact.step(state, dt, some_way(rng, state[:3]), tangent=tangent)
             state = answer[1]
             assert all(np.all(np.isfinite(one)) for one in (*answer, contact.dissipated(state)))
+
+
+# --- friction that falls ---
+
+
+@pytest.mark.parametrize("material", [ELASTIC, KELVIN], ids=["elastic", "Kelvin"])
+def test_ten_thousand_random_steps_of_friction_that_falls_lose_energy(material):
+    """No NaN, and no step gives back heat but for rounding."""
+    rng = np.random.default_rng(11)
+    for shape, n in ((BALL, 2000), (mdr.FlatPunch(a=1e-3), 3000)):
+        contact = mdr.ContactElement(shape, material, MU_0, u_z_max=DEPTH, n_springs=16, mu_s=1.6 * MU_0)
+        state, lost = contact.at_rest((0, 0, DEPTH / 2)), 0.0
+        for _ in range(n):
+            F, state = contact.step(state, 10.0 ** rng.uniform(-6, 0), some_way(rng, state[:3]))
+            now = float(contact.dissipated(state))
+            assert np.all(np.isfinite(F))
+            assert now >= lost - 1e-15 * (now + float(contact.stored(state)))
+            lost = now
+        assert lost > 0
+
+
+def test_a_spring_sticks_up_to_the_static_limit_and_its_mode_is_part_of_the_state():
+    """Both forces on one way are the same, and a state that is taken back goes on as it did."""
+    contact = mdr.ContactElement(mdr.FlatPunch(a=1e-3), ELASTIC, MU_0, u_z_max=DEPTH, mu_s=1.5 * MU_0)
+    state, pulled = contact.at_rest((0, 0, DEPTH)), []
+    for x in (1.4, 1.6, 1.6, 1.7, 2.0, 2.2):  # over the way to slip: let go, a rest, stick again, and again let go
+        F, state = contact.step(state, 0.0, (x * REACH, 0, DEPTH))
+        pulled.append(F[0] / (MU_0 * F[2]))
+    assert_allclose(pulled, [1.4, 1.0, 1.0, 1.1, 1.4, 1.0], rtol=1e-12)
+    slips, sticks = state.copy(), state.copy()
+    sticks[contact.state_names.index("mode[0]")] = mdr.State.STICK
+    F = [contact.step(one, 0.0, (2.3 * REACH, 0, DEPTH))[0][0] for one in (slips, sticks)]
+    assert_allclose(F[1], 1.1 * F[0], rtol=1e-12)
+
+
+def test_other_numbers_of_friction_that_falls_are_refused():
+    with pytest.raises(ValueError, match=r"mu_s = 0\.4 must not be below mu_0 = 0\.5: raise mu_s"):
+        mdr.ContactElement(BALL, ELASTIC, MU_0, u_z_max=DEPTH, mu_s=0.4)
+    with pytest.raises(ValueError, match=r"not one with Maxwell arms, got Prony: ask slide_record along x"):
+        mdr.ContactElement(BALL, MATERIALS["arms"], MU_0, u_z_max=DEPTH, mu_s=0.6)
+    with pytest.raises(ValueError, match=r"one coefficient of friction can be exported"):
+        header(mdr.ContactElement(BALL, ELASTIC, MU_0, u_z_max=DEPTH, mu_s=0.6), "ball", "")
+    plain = mdr.ContactElement(BALL, ELASTIC, MU_0, u_z_max=DEPTH, mu_s=MU_0)
+    assert plain.state_names == element(n_springs=256).state_names
 
 
 # --- a state ---

@@ -35,6 +35,22 @@ def test_a_history_is_a_recorded_motion(material, rms):
     assert found.cof_error[0] < 0.01 * MU_0
 
 
+def test_friction_that_falls_in_a_history_is_that_of_a_recorded_motion():
+    """Springs are let go within a period, and forget then."""
+    law, v_0 = mdr.StaticKinetic(1.5 * MU_0, MU_0), 0.5 * UNIT
+    case = replace(BALL, friction=law)
+    found, plain = (mdr.random_cof(one, BAND, v_0, n_realisations=8, seed=4, n_springs=32) for one in (case, BALL))
+    n_t, dt, impulses = found.n_t, found.duration / found.n_t, []
+    u_z = DEPTH + np.tile(BAND.realisation(n_t, dt, seed=4, k=2), 3)
+    for n in (2 * n_t + 1, 3 * n_t):
+        t = dt * np.arange(n)
+        run = mdr.slide_record(BALL.indenter, ELASTIC, MU_0, t, v_0 * t, u_z=u_z[:n], n_springs=32, mu_s=law.mu_s)
+        impulses.append(run.mean_F_z * t[-1] * np.array([run.cof, 1]))
+    F_x, F_z = impulses[1] - impulses[0]
+    assert_allclose(found.realisations[2, 0], F_x / F_z, rtol=0, atol=4 * found.cof_error[0] + 1e-4)
+    assert found.cof[0] > plain.cof[0] + 0.01 * MU_0
+
+
 def test_friction_and_its_standard_error_are_those_of_the_realisations():
     """To the first order in the spread of the mean force: a ratio of means beside a mean of ratios."""
     found = mdr.random_cof(PUNCH, BAND, UNIT * np.array([0.3, 1.0, 2.0]), n_realisations=32)

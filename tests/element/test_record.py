@@ -104,6 +104,45 @@ def test_ten_odd_records_are_those_of_explicit_steps(material, law, seed):
     assert np.abs(2 * fine - coarse).max() <= found.cof_error + 0.1 * np.abs(fine - coarse).max() + 2e-4 * MU_0
 
 
+@pytest.mark.parametrize(
+    ("material", "law", "seed"),
+    [(ELASTIC, {}, 3), (ELASTIC, {}, 4), (KELVIN, {"T": 1e-3}, 3)],
+    ids=["elastic", "elastic, in the plane", "Kelvin"],
+)
+def test_records_of_a_punch_whose_friction_falls_are_those_of_explicit_steps(material, law, seed):
+    """Of first order: what they change where the parts are doubled is what is left."""
+    t, x, y, z = odd_record(seed=seed)
+    found = mdr.slide_record(mdr.FlatPunch(a=1e-3), material, MU_0, t, x, None if seed % 2 else y, z, mu_s=1.5 * MU_0)
+    u, off = np.column_stack([x, 0 * x if seed % 2 else y, z]), []
+    for parts in (80, 160):
+        _, area = followed(np.zeros(1), t, u, MU_0 * material.mindlin_ratio, parts, **law, stick=1.5)
+        off.append(MU_0 * area[:, :2].sum(axis=0) / area[:, 2].sum() - [found.cof, found.cof_y])
+    coarse, fine = off
+    assert np.abs(fine).max() <= found.cof_error + 2 * np.abs(fine - coarse).max() + 5e-5 * MU_0
+    assert np.abs(fine - coarse).max() < 1e-3 * MU_0
+
+
+def test_arms_in_the_plane_are_refused_where_friction_falls():
+    t, x, y, z = odd_record()
+    with pytest.raises(ValueError, match="not one with Maxwell arms, got Prony: ask slide_record along x"):
+        mdr.slide_record(BALL, ARMS, MU_0, t, x, y, z, mu_s=1.5 * MU_0)
+
+
+def test_a_harmonic_record_of_friction_that_falls_has_that_of_a_run():
+    """Chords of the record let springs go at other instants, by h²/8 of the amplitude."""
+    law = mdr.StaticKinetic(1.5 * MU_0, MU_0)
+    motion = mdr.NormalOscillation(20e-6, 8e-6, OMEGA)
+    case = mdr.SlidingContact(BALL, ELASTIC, friction=law, oscillation=motion)
+    run, steps, area = mdr.slide(case, 1e-3, n_springs=32, n_periods=12), 256, []
+    for periods in (11, 12):
+        t = np.arange(periods * steps + 1) * PERIOD / steps
+        u_z = 20e-6 + 8e-6 * np.cos(OMEGA * t)
+        found = mdr.slide_record(BALL, ELASTIC, MU_0, t, 1e-3 * t, u_z=u_z, n_springs=32, mu_s=law.mu_s)
+        area.append(found.mean_F_z * t[-1] * np.array([found.cof, 1]))
+    F_x, F_z = area[1] - area[0]
+    assert_allclose(F_x / F_z, run.cof, rtol=0, atol=1e-3)
+
+
 def test_along_a_line_is_along_any_line():
     t, x, _, z = odd_record()
     one, two = mdr.slide_record(BALL, ELASTIC, MU_0, t, x, 0.3, z), mdr.slide_record(BALL, ELASTIC, MU_0, t, 0, x, z)
