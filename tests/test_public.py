@@ -79,9 +79,9 @@ SIGNATURES = {
     "no_load_velocity": "case",
     "slide": "case, v_0, *, n_springs=None, steps_per_period=None, n_periods=None, "
     'start="full_slip", record=0, lump=True, limit_s=None, accuracy=1e-05',
-    "ContactElement": "indenter, material, mu_0, *, u_z_max, n_springs=256",
+    "ContactElement": "indenter, material, mu_0, *, u_z_max, n_springs=256, mu_s=None",
     "ContactElement.step": "state, dt, u, tangent=False",
-    "slide_record": "indenter, material, mu_0, t, u_x, u_y=None, u_z=None, *, F_z=None, n_springs=None",
+    "slide_record": "indenter, material, mu_0, t, u_x, u_y=None, u_z=None, *, F_z=None, n_springs=None, mu_s=None",
     "random_cof": "case, spectrum, v_0, *, n_realisations=64, seed=0, n_springs=None",
     "Spectrum": "f, density",
     "Spectrum.band": "rms, f_low, f_high",

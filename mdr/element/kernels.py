@@ -100,6 +100,13 @@ def room_for(parts, n):
 
 
 @_inline
+def some_of(row, first, end):
+    """Some springs of a row, with modes of their own where friction falls."""
+    gap, w, limit = row.gap[first:end], row.w[first:end], of_springs(row.limit, first, end)
+    return SpringRow(gap, w, row.law, row.length_x, row.length_z, row.force_x, row.force_z, limit)
+
+
+@_inline
 def parts_of(n_state, n):
     """Compression or extension, and arms, of one of n springs in a state of so many numbers."""
     return (n_state - N_HEAD - 1) // (3 * n)
@@ -189,8 +196,7 @@ def rates(K, j, d, s, e, z_0, way, contact, T, modes, arms, tools, room, alone, 
             for k in range(3):
                 K[k, j] += w * slope(room.F, k, i, d)
             continue
-        own = contact.gap[i : i + 1], contact.w[i : i + 1], contact.law
-        one = SpringRow(*own, *contact[3:7], of_springs(contact.limit, i, i + 1))
+        one = some_of(contact, i, i + 1)
         own_s, own_e = s[:, i : i + 1].copy(), e[:, i : i + 1].copy()
         for k in range(3):
             alone.F[0, k, 0] = room.F[0, k, i]
@@ -218,7 +224,7 @@ def steps(states, us, h, contact, mark, pull, tangents):
     state or with what comes out.
     """
     n, (T, modes, arms) = contact.gap.size, contact.law
-    contact = SpringRow(*contact[:7], of_springs(contact.limit, 0, n))
+    contact = some_of(contact, 0, n)
     tools, unit = new_tools(h, modes, arms, 0j, n), (contact.length_x, contact.length_x, contact.length_z)
     force = contact.force_x, contact.force_x, contact.force_z
     parts = parts_of(states.shape[1], n)

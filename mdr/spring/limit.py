@@ -95,7 +95,7 @@ def limit_later(limit, t):
     return Strength(limit.coulomb, limit.x2, a_0, a_1, limit.a_2, limit.stick, limit.was, limit.now)
 
 
-def falling(stick, n):
+def falling(stick: float, n: int) -> Strength | None:
     """The limit of n springs whose friction falls, none of which slips yet; None of Coulomb's, with a stick of 1."""
     if stick == 1.0:
         return None
