@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +30,7 @@ from mdr.march.result.run import finish, friction_of
 from mdr.march.result.slide import LAW, SLOWEST, runs
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
+from mdr.plots.figures import Axes
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, row
 from mdr.tools.csv_table import Tabled, csv_text
@@ -38,9 +39,6 @@ from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import Ended, progress, time_is_over
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LEAST_KNOB = 32  #: springs, or steps of a period, that a run and its companions can do with
 

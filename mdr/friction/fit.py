@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,15 +24,13 @@ from mdr.friction.friction_data import FrictionData
 from mdr.given.vary import still_held, warn_of_load
 from mdr.march.result.refinement import default_springs, default_steps
 from mdr.normal.resolved import at_rest, resolved
+from mdr.plots.figures import Axes
 from mdr.tools.arrays import EPS, Array
 from mdr.tools.keywords import offering
 from mdr.tools.messages import short
 from mdr.tools.progress import Ended, Ticker, time_is_over, time_limit
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Printed
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 WORTH = 0.1  #: of the error of a measurement, which runs are to keep to
 LEAST_GRID = 16  #: springs, or steps of a period, of a run that is worth anything

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.motion import PeriodicMotion
@@ -20,15 +20,13 @@ from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held, value_at
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
+from mdr.plots.figures import Axes
 from mdr.tools.checks import between, finite
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import progress
 from mdr.tools.summary import Summarised, Summary
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Pair = tuple[float, float]  #: at the smaller and at the larger value of an input
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +23,7 @@ from mdr.half_space.friction import Friction, LastPeriod, Settings, contact_of, 
 from mdr.half_space.influence import X, Y, Z
 from mdr.half_space.steps import Step
 from mdr.normal.normal_force import full_cof
+from mdr.plots.figures import Axes, Figure
 from mdr.tools.arrays import Array
 from mdr.tools.checks import count, finite, positive, row
 from mdr.tools.companions import Companion, bound
@@ -31,10 +32,6 @@ from mdr.tools.messages import MOST_TOLD
 from mdr.tools.progress import time_is_over, time_limit
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span, with_error
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 PERIODS = 60  #: at most, unless they are given
 LEAST_CELLS = 8  #: cells along a side, and steps of a period

@@ -7,16 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mdr.plots.figures import COLOURS, axes_of, colours, faint, prefix, style, subplots
+from mdr.plots.figures import COLOURS, Axes, axes_of, colours, faint, prefix, style, subplots
 from mdr.tools.notation import scale_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from numpy.typing import NDArray
 
 OVER_V_C = r"$v_0/v_c$"
 PIECES = 16  #: straight ones between two points of a smooth line

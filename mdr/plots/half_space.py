@@ -5,16 +5,12 @@ Records are read by attribute only.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mdr.plots.figures import COLOURS, axes_of, edges_of, faint, prefix, style, subplots
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
+from mdr.plots.figures import COLOURS, Axes, Figure, axes_of, edges_of, faint, prefix, style, subplots
 
 SEEN = 1e-6  #: share of mu_0 from which a COF across is told
 

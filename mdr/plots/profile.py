@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from mdr.plots.figures import COLOURS, prefix, style, subplots
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike
+from mdr.plots.figures import COLOURS, Axes, Figure, prefix, style, subplots
 
 
 def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: ArrayLike | None = None) -> Figure:

@@ -6,16 +6,12 @@ Records are read by attribute only.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from mdr.case.paths import facts_at
-from mdr.plots.figures import COLOURS, axes_of, prefix, style, subplots
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from mdr.plots.figures import COLOURS, Axes, Figure, axes_of, prefix, style, subplots
 
 
 def plot_slide_record(found: Any) -> Figure:

@@ -7,16 +7,12 @@ attribute only. Times are in periods of the oscillation, lengths and forces in t
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mdr.plots.figures import COLOURS, axes_of, edges_of, faint, prefix, style, subplots
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import NDArray
+from mdr.plots.figures import COLOURS, Axes, Figure, axes_of, edges_of, faint, prefix, style, subplots
 
 #: name and colour of each `mdr.State`, by its value; light to dark as a spring is held more firmly
 MODES = (("free", "#D2D2D2"), ("stick", "#0B3C6F"), ("slip", "#F0B93A"), ("slip back", "#C8402B"))

@@ -8,19 +8,15 @@ are drawn on a logarithmic scale.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.paths import facts_at
-from mdr.plots.figures import axes_of, colours, edges_of, prefix, style, subplots
+from mdr.plots.figures import Axes, Figure, axes_of, colours, edges_of, prefix, style, subplots
 from mdr.tools.arrays import Array
 from mdr.tools.status import Status
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Study: TypeAlias = Any  #: of mdr.studies, read by attribute
 Axis: TypeAlias = Any
