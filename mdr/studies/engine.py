@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import pickle
 import sys
 import time
@@ -26,6 +25,7 @@ from mdr.studies.specification import identity_of, specification
 from mdr.studies.store import Store, StudyError
 from mdr.studies.study import Study, frame_of, study_of_points, tree_of
 from mdr.studies.work import Work, units_of
+from mdr.tools.beside import cores
 from mdr.tools.compiling import TALLY
 from mdr.tools.progress import progress
 from mdr.tools.status import Status
@@ -256,11 +256,6 @@ def _run_here(work: Work, cut: range, chunks: Sequence[int]) -> Generator[tuple[
         ended.set()
         for thread in threads:
             thread.join()
-
-
-def cores() -> int:
-    """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _lost(error: Exception) -> bool:
