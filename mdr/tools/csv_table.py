@@ -40,7 +40,7 @@ from mdr.tools.warned import warn_outside
 
 
 class Tabled:
-    """Base of records that write themselves as CSV, or as a data frame; they answer `table()`."""
+    """Base of records that write themselves as CSV; they answer `table()`."""
 
     def table(self) -> str:
         """The text of the CSV file.
@@ -61,20 +61,6 @@ class Tabled:
             The file.
         """
         write_whole(Path(path), self.table().encode("utf-8"))
-
-    def to_dataframe(self) -> Any:
-        """The table as a pandas.DataFrame, with units in the names of its columns; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row for each line of `table()`.
-        """
-        try:
-            import pandas
-        except ImportError:
-            raise ImportError("to_dataframe needs pandas: pip install pandas") from None
-        return pandas.read_csv(StringIO(self.table()), keep_default_na=False, na_values=["nan"], engine="python")
 
 
 @dataclass(eq=False)

@@ -139,15 +139,6 @@ def test_it_opens_labelled_in_xarray(study, tmp_path):
         assert "title" in data.attrs
 
 
-def test_it_is_a_data_frame_of_its_csv(study):
-    pytest.importorskip("pandas")
-    frame = study.to_dataframe()
-    name = study.quantities[0]
-    (column,) = (one for one in frame.columns if one.partition(" ")[0] == name)
-    np.testing.assert_array_equal(frame[column], study[name].ravel())
-    assert [*frame["why"]] == [*np.ravel(study.why)]
-
-
 def test_without_xarray_it_says_what_to_install(study, monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(ImportError, match="to_xarray needs xarray: pip install xarray"):
