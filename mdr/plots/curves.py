@@ -263,33 +263,18 @@ def _across(curve: Any) -> Any:
 
 
 def _curve_legend(ax: Axes, static: Sequence[float], settled: bool, across: bool) -> None:
-    """Explain the labels given, and what is in sight of static limits, hollow points and the COF across.
-
-    It follows the axis of friction, unless another legend has taken its place.
-    """
+    """Explain the labels given, and static limits, hollow points and the COF across where there are some."""
     from matplotlib.lines import Line2D
 
-    made = ax.get_legend()
-
-    def explain(_: Any = None) -> None:
-        nonlocal made
-        if ax.get_legend() is not made:
-            return
-        handles, _ = ax.get_legend_handles_labels()
-        low, high = sorted(ax.get_ylim())
-        if any(low <= level <= high for level in static):
-            handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
-        if across:
-            handles.append(Line2D([], [], color="0.3", lw=1.2, ls="-.", label="across the pull"))
-        if not settled:
-            handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
-        if made is not None:
-            made.remove()
-        with style():
-            made = ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none") if handles else None
-
-    explain()
-    ax.callbacks.connect("ylim_changed", explain)
+    handles, _ = ax.get_legend_handles_labels()
+    if np.any(np.isfinite(static)):
+        handles.append(Line2D([], [], color="0.3", linewidth=1.2, linestyle="--", label="static limit"))
+    if across:
+        handles.append(Line2D([], [], color="0.3", lw=1.2, ls="-.", label="across the pull"))
+    if not settled:
+        handles.append(Line2D([], [], color="0.3", ls="", marker="o", mfc="white", label="not settled"))
+    if handles:
+        ax.legend(handles=handles, loc="best", frameon=True, edgecolor="none")
 
 
 def _is_scale(v_c: Any) -> bool:

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mdr.plots.figures import COLOURS, Axes, Figure, prefix, style, subplots
 
 
-def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: ArrayLike | None = None) -> Figure:
+def plot_profile(indenter: Any, d: float) -> Figure:
     """Draw the shape f(r) and its image g(x), pressed to the depth d into its springs, with the contact radius.
 
     Parameters
@@ -19,10 +18,6 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: ArrayLik
         The shape.
     d : float
         Depth [m].
-    n_springs : int
-        Number of springs, evenly on both sides.
-    springs : array_like of float, optional
-        Positions x >= 0 of the springs [m], or a record with `.x`, in the place of n_springs.
 
     Returns
     -------
@@ -30,10 +25,7 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: ArrayLik
         The figure. Heights are exaggerated: the two axes have their own scales.
     """
     a = float(indenter.contact_radius(d))
-    if springs is None:
-        x = (np.arange(-(-n_springs // 2)) + 0.5) * 1.5 * a / (n_springs / 2)
-    else:
-        x = np.sort(np.asarray(getattr(springs, "x", springs), dtype=float))
+    x = (np.arange(20) + 0.5) / 20 * 1.5 * a  # of springs, at either side
     units = prefix([1.5 * a], "m"), prefix([d], "m")
     with style():
         fig, (left, right) = subplots(1, 2, sharex=True, sharey=True, figsize=(7.4, 3.6))
@@ -43,7 +35,7 @@ def plot_profile(indenter: Any, d: float, n_springs: int = 40, springs: ArrayLik
         _draw_shape(right, r, indenter.profile_1d(r), a, d, units)
         left.set(title="shape $f(r)$", xlabel=f"$r$ [{units[0][1]}]", ylabel=f"height [{units[1][1]}]")
         right.set(title="image $g(x)$ on its springs", xlabel=f"$x$ [{units[0][1]}]")
-        reach = max(1.52 * a, 1.03 * np.max(x)) * units[0][0]
+        reach = 1.52 * a * units[0][0]
         left.set_xlim(-reach, reach)
         fig.legend(loc="outside lower center", ncols=2)
     return fig

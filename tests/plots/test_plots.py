@@ -186,7 +186,7 @@ def test_a_run_without_a_record_is_refused():
 @pytest.mark.parametrize(("d", "unit"), [(2e-5, 1e-6), (8e-4, 1e-3)])
 def test_profile_shows_springs_down_to_the_indenter(d, unit):
     ball = mdr.Sphere(R=1e-3)  # a shape that ends
-    left, right = plots.plot_profile(ball, d, n_springs=40).axes
+    left, right = plots.plot_profile(ball, d).axes
     springs = {drawn.get_label(): drawn for drawn in right.collections if drawn.get_label() in ("in contact", "free")}
     tops = np.array([segment[1] for segment in springs["in contact"].get_segments()]) * [unit, 1e-6]
     assert_allclose(tops[:, 1], ball.profile_1d(np.abs(tops[:, 0])) - d, atol=1e-12)
@@ -248,15 +248,8 @@ def test_a_cof_across_is_a_line_of_its_own_where_there_is_one():
     assert legend_texts(plots.plot_curve(made_up_curve(cof_y=np.full(6, 1e-6)))) == ["static limit"]
 
 
-def test_a_static_limit_is_named_while_it_is_in_sight():
-    ax = plots.plot_curve(made_up_curve(), labels=["cone"])
-    ax.set(ylim=(0.9, 1.01))
-    assert legend_texts(ax) == ["cone"]
-    ax.set(ylim=(0.0, 1.01))
-    assert legend_texts(ax) == ["cone", "static limit"]
-    ax.legend(["mine"])
-    ax.set(ylim=(0.9, 1.01))
-    assert legend_texts(ax) == ["mine"]
+def test_a_static_limit_is_named_where_there_is_one():
+    assert legend_texts(plots.plot_curve(made_up_curve(), labels=["cone"])) == ["cone", "static limit"]
     assert plots.plot_curve(made_up_curve(static_cof=np.nan)).get_legend() is None
 
 
