@@ -16,16 +16,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-import numpy as np
-
-from mdr.tools.arrays import Array
 from mdr.tools.messages import short
-from mdr.tools.notation import decimal_mark, is_unit
-from mdr.tools.progress import progress
+from mdr.tools.notation import is_unit
 
 SEPARATORS = ("\t", ";", "|", ",", " ")  #: " " is any run of blanks
 SEARCHED = 1000  #: lines that tell the separator
-AT_ONCE = 100_000  #: lines that are parsed between two words on progress
 FAR = 200  #: lines that tell of a table: rows, and words above lines such as "Rate, 1000"
 _DIGITS = r"\d{1,3}(?:[.,'’]\d{3})+(?:[.,]\d+)?|\d+[.,]?\d*|[.,]\d+"  # with or without separators of thousands
 _NUMBER = re.compile(rf"[+−-]?(?:{_DIGITS})(?:e[+-]?\d+)?|[+-]?inf(?:inity)?|∞|nan", re.IGNORECASE)
@@ -70,7 +65,6 @@ class Block:
     beyond: list[Line] = field(default_factory=list)  #: words farther up, above lines such as "Rate, 1000"
     named: Block | None = None  #: the table before whose header is its, as it has none and is as wide
     widths: Counter[int] = field(default_factory=Counter)  #: cells of its rows
-    numbers: Array | None = None  #: those of all its cells, where they were read at once
 
     @property
     def width(self) -> int:
@@ -167,18 +161,6 @@ def separators_of(text: str) -> Sequence[str]:
     return told[1] if told else SEPARATORS
 
 
-def tables(lines: list[Line], separator: str, source: str) -> list[Block]:
-    """The tables of a text, at once where the last one goes on to the end as it begins, with progress."""
-    if len(lines) > SEARCHED and (found := blocks(lines[:SEARCHED], separator)):
-        last = found[-1]
-        rows = lines[lines.index(last.rows[0]) :]
-        last.numbers = numbers_at_once(rows, separator, f"reading {source}")
-        if last.numbers is not None and last.numbers.shape[1] == last.width:
-            last.rows = rows
-            return found
-    return blocks(progress(lines, f"reading {source}", "lines"), separator)
-
-
 def blocks(lines: Iterable[Line], separator: str) -> list[Block]:
     """The tables of a text that is cut so."""
     found: list[Block] = []
@@ -199,22 +181,6 @@ def blocks(lines: Iterable[Line], separator: str) -> list[Block]:
         words = []
         found[-1].rows.append(line)
     return found
-
-
-def numbers_at_once(lines: Sequence[Line], separator: str, what: str = "") -> Array | None:
-    """The numbers of lines that hold nothing else, in equal count; None for others. Progress says `what` is done."""
-    texts, found = [line.text for line in lines], []
-    if separator != "," and decimal_mark(cell for text in texts[:FAR] for cell in cells_of(text, separator))[0] == ",":
-        if any("." in text for text in texts):
-            return None
-        texts = [text.replace(",", ".") for text in texts]
-    by = separator.strip(" ") or None
-    with suppress(ValueError):
-        for i in progress(range(0, len(texts), AT_ONCE), what):
-            found.append(np.loadtxt(texts[i : i + AT_ONCE], delimiter=by, comments=None, quotechar='"', ndmin=2))
-        numbers = np.concatenate(found)
-        return numbers if np.all(np.isfinite(numbers)) else None
-    return None
 
 
 def _part(words: Sequence[Line], block: Block) -> bool:

@@ -33,9 +33,10 @@ from mdr.tools.arrays import Array
 from mdr.tools.atomic_write import write_whole
 from mdr.tools.checks import count
 from mdr.tools.csv_header import Column, Header, Place, Reading, fault, repr_of
-from mdr.tools.csv_layout import SEARCHED, Block, Line, Names, blocks, is_like_number, lines_of, separators_of, tables
+from mdr.tools.csv_layout import SEARCHED, Block, Line, Names, blocks, is_like_number, lines_of, separators_of
 from mdr.tools.messages import first_of, one_line, short
 from mdr.tools.notation import converted, decimal_mark, number_in, shown, with_point
+from mdr.tools.progress import progress
 from mdr.tools.warned import warn_outside
 
 
@@ -210,7 +211,8 @@ def _found_in(lines: list[Line], of: Callable[..., Table], separators: Sequence[
                 best = max(ranks), separator
         if best is not None and any(best[0][:3]):  # all is there, or a table
             break
-    found = [] if best is None else _with_headers(tables(lines, best[1], source), of)
+    every = progress(lines, f"reading {source}", "lines")
+    found = [] if best is None else _with_headers(blocks(every, best[1]), of)
     sound = [one for one in found if one.is_whole or one.block.is_table]
     return sound or sorted(found, key=lambda one: one.rank, reverse=True)[:1]
 
@@ -266,7 +268,7 @@ def _first(faults: Sequence[str], source: str) -> list[str]:
 # --- values ---
 
 
-def _scaled(values: Sequence[float] | Array, place: Place) -> Array:
+def _scaled(values: Sequence[float], place: Place) -> Array:
     """The values in the unit of the library; with a warning where their size is hardly meant."""
     column = place.column
     found = converted(np.array(values), place.unit or column.unit, column.unit)
@@ -295,15 +297,13 @@ def _require_known(name: str, given: Mapping[str, Any] | None, known: Sequence[s
         raise ValueError(f"{name}: {short(str(strange[0]))} is no column; there are {', '.join(known)}")
 
 
-def _values_of(table: Table) -> tuple[dict[str, Sequence[float] | Array], list[str]]:
+def _values_of(table: Table) -> tuple[dict[str, Sequence[float]], list[str]]:
     """The numbers of each column, and what is wrong with cells and rows."""
     block, header = table.block, table.header
     heads, places = table.names.width, header.places
     numbered = all(str(header.called.get(one.column.name)).isdigit() for one in places)
     exact = block.separator == " "
     width = block.width if numbered or not heads or (exact and heads > block.width) else heads
-    if block.numbers is not None and width >= block.width:
-        return {one.column.name: block.numbers[:, one.at] for one in places}, []
     least, whose = min(block.width, heads or block.width), "most rows" if width == block.width else "the header"
     rows = [block.cells(line) for line in block.rows]
     comma = "; if a comma is the decimal mark, separate them by ;" if block.separator == "," else ""

@@ -3,7 +3,6 @@
 from operator import attrgetter
 
 import pytest
-from numpy.testing import assert_array_equal
 
 from mdr.tools.csv_layout import (
     blocks,
@@ -12,7 +11,6 @@ from mdr.tools.csv_layout import (
     is_like_number,
     kind_of,
     lines_of,
-    numbers_at_once,
     separators_of,
 )
 
@@ -83,13 +81,6 @@ def test_skip_is_lines_of_the_file():
     text = "x,y\n\n1,2\nt,a\n3,4\n"
     assert [next(one.names()).cells for one in blocks(lines_of(text, None), ",")] == [["x", "y"], ["t", "a"]]
     assert [next(one.names()).cells for one in blocks(lines_of(text, 3), ",")] == [["t", "a"]]
-
-
-def test_numbers_at_once_are_those_of_cells():
-    lines = lines_of("1;2,5\n-3e2;,5\n", None)
-    assert_array_equal(numbers_at_once(lines, ";"), [[1, 2.5], [-300, 0.5]])
-    for text in ("1,234;2,345\n", "1;2\n3\n", "1;x\n", "1;nan\n", "1;1_0\n", "1;0x1\n", "1,5;2.5\n", "1;\n"):
-        assert numbers_at_once(lines_of(text, None), ";") is None, text
 
 
 @pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-be", "utf-16-le", "cp1252", "shift_jis"])
