@@ -87,10 +87,9 @@ HOSTILE = {
     "poisson_ratio": [*NUMBER, *RATIOS],
     "_slope_angle": [*NUMBER, *ANGLES],
     "_invertible": [*POSITIVE, (1e-320, ValueError, "beyond the range of floats")],
-    "_end": [one for one in POSITIVE if one[0] is not None],
     "amplitudes": ENTRIES,
     "_row": [*ENTRIES, ([-1.0], ValueError, "[0] must not be negative")],
-    "_or_none": [one for one in POSITIVE if one[0] is not None],
+    "positive_or_none": [one for one in POSITIVE if one[0] is not None],
     "column": ROW,
     "radii": [(3, TypeError, "must be a sequence of radii"), ([-1.0], ValueError, "be positive"),
               ("tip", TypeError, "must be")],
@@ -119,7 +118,7 @@ NOT_NEGATIVE = {"Coulomb.mu_0", "ShearStrength.mu_0", "ShearStrength.tau_0", "Ke
                 "SpringPull.c_x", "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
 SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}
 BOUNDED = {"theta": "_slope_angle", "nu": "poisson_ratio", "nu_1": "poisson_ratio", "nu_2": "poisson_ratio"}
-OWN = {"Ellipsoid.k": "_invertible", "SpringPull.k_y": "_or_none", "SpringPull.c_y": "_or_none"}
+OWN = {"Ellipsoid.k": "_invertible", "SpringPull.k_y": "positive_or_none", "SpringPull.c_y": "positive_or_none"}
 
 
 def sound(record):

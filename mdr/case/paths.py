@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from mdr.case.contact import KINDS, SlidingContact
 from mdr.case.friction import Friction
 from mdr.materials import KelvinVoigt
-from mdr.tools.checks import not_negative, positive
+from mdr.tools.checks import not_negative, positive, word
 from mdr.tools.fields import NOTHING, Facts, Rule, facts, facts_of, fields_of
 
 
@@ -137,9 +137,7 @@ def settings_of(part: str) -> dict[str, SetPath]:
 
 def hold_of(value: Any) -> str:
     """What stays of a driven depth, "depth" or "load". ValueError for anything else."""
-    if value not in ("depth", "load"):
-        raise ValueError(f'hold must be "depth" or "load", got {value!r}')
-    return str(value)
+    return word("hold", value, "depth", "load")
 
 
 def facts_at(path: str) -> Facts:

@@ -17,21 +17,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.tools.checks import finite_array, not_negative, positive
+from mdr.tools.checks import finite_array, not_negative, positive_or_none
 from mdr.tools.fields import Record, facts
 
 __all__ = ["Pull", "RigidPull", "SpringPull"]
 
 STIFFNESS = "stiffness in N/m; for a rigid pull use RigidPull()"  #: what a refused one is told
-
-
-def _or_none(name: str, value: Any, note: str = "") -> float | None:
-    return None if value is None else positive(name, value, note)
 
 
 class Pull(Record, ABC):
@@ -138,10 +133,12 @@ class SpringPull(Pull):
     )
     k_y: float | None = field(
         default=None,
-        metadata=facts("N/m", "stiffness across the pull; none guides the body", _or_none, label="stiffness $k_y$"),
+        metadata=facts(
+            "N/m", "stiffness across the pull; none guides the body", positive_or_none, label="stiffness $k_y$"
+        ),
     )
     c_y: float | None = field(
-        default=None, metadata=facts("N s/m", "damping across the pull", _or_none, label="damping $c_y$")
+        default=None, metadata=facts("N s/m", "damping across the pull", positive_or_none, label="damping $c_y$")
     )
 
     def __post_init__(self) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 from mdr.case.depth_cycle import Cycle
 from mdr.case.motion import PeriodicMotion
 from mdr.tools.arrays import Array
-from mdr.tools.checks import between, count, finite, positive
+from mdr.tools.checks import between, count, finite, positive, truth
 
 __all__ = ["pulse", "sawtooth", "square"]
 
@@ -53,8 +53,7 @@ def sawtooth(u_z0: float, du_z: float, omega: float, *, n_harmonics: int, fallin
     [22.99 17.01]
     """
     n = _orders(n_harmonics)
-    if not isinstance(falling, bool):
-        raise TypeError(f"falling must be True or False, got {falling!r}")
+    truth("falling", falling)
     return _smoothed(u_z0, du_z, omega, sin=(1 if falling else -1) / n)
 
 

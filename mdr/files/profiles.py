@@ -9,7 +9,7 @@ import numpy as np
 from mdr.files.measurements import read_table
 from mdr.files.recorded_motion import counted
 from mdr.tools.arrays import EPS, Array
-from mdr.tools.checks import positive
+from mdr.tools.checks import positive, word
 from mdr.tools.csv_header import Column, Reading
 
 PROFILE = (
@@ -25,8 +25,7 @@ def profile_points(
     path: str | PathLike[str], reading: Reading, apex: float, side: str, flip: bool, pitch: float | None
 ) -> tuple[Array, Array]:
     """Radii from 0 and heights [m] of one side of a scan across the tip, or of both laid upon one another."""
-    if side not in ("both", "left", "right"):
-        raise ValueError(f'side must be "both", "left" or "right", got {side!r}')
+    word("side", side, "both", "left", "right")
     table = read_table(path, PROFILE[pitch is not None :], reading)
     if pitch is not None:
         table.values["r"] = counted(table, PROFILE[0], positive("pitch", pitch, "in m"), "pitch")

@@ -35,6 +35,7 @@ from mdr.march.result.refinement import MOST_SPRINGS, MOST_STEPS, default_spring
 from mdr.march.result.run import SlidingRun, finish
 from mdr.march.result.slide import runs, slide
 from mdr.normal.resolved import resolved
+from mdr.tools.checks import word
 from mdr.tools.companions import Companion, bound
 from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
@@ -154,8 +155,7 @@ def measure_critical_velocity(
     >>> print(f"{found.v_c:.3g} m/s, {found.kind}; Eq. (1) gives {mdr.critical_velocity(case):.3g} m/s")
     0.00036 m/s, end of stick; Eq. (1) gives 0.00036 m/s
     """
-    if start not in ("full_slip", "rest"):
-        raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
+    word("start", start, "full_slip", "rest")
     # stick is told from none within 2e-6 of v_c
     half_width = max(2 * accuracy_of(accuracy), 2e-6)  # accuracy is a quarter of the width
     case = TOLD_BY_SLIP.seen(resolved(case), "measure_critical_velocity")

@@ -23,7 +23,7 @@ from mdr.materials import Elastic, KelvinVoigt, Material
 from mdr.normal.normal_force import normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import instance, not_negative, positive
+from mdr.tools.checks import instance, not_negative, positive, truth
 from mdr.tools.keywords import offering
 from mdr.tools.notation import GRAVITY
 from mdr.tools.warned import warn_outside
@@ -160,8 +160,8 @@ def rig(
     if held and (by_force or not amplitudes):
         raise ValueError("hold is about a driven depth: give depth_amplitude or acceleration too, or leave it out")
     pull = _pull(k_x, m, c_x)
-    if load_rides is not None and not isinstance(load_rides, bool):
-        raise TypeError(f"load_rides must be True or False, got {load_rides!r}")
+    if load_rides is not None:
+        truth("load_rides", load_rides)
     if support_acceleration is None:
         m_z = _moved_by_load(m, load_rides, load_amplitude is not None, k_x is None, F_z0)
     else:

@@ -25,7 +25,7 @@ from mdr.half_space.steps import Step
 from mdr.normal.normal_force import full_cof
 from mdr.plots.figures import Axes, Figure
 from mdr.tools.arrays import Array
-from mdr.tools.checks import count, finite, positive, row
+from mdr.tools.checks import count, finite, positive, row, truth, word
 from mdr.tools.companions import Companion, bound
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.messages import MOST_TOLD
@@ -36,7 +36,6 @@ from mdr.tools.summary import Summarised, Summary, number, span, with_error
 PERIODS = 60  #: at most, unless they are given
 LEAST_CELLS = 8  #: cells along a side, and steps of a period
 SETTLED = 1e-4  #: share of mu_0 that the COF may still change by
-STARTS = ("full_slip", "rest")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -323,10 +322,8 @@ def _settings(
 ) -> Settings:
     """How a case is marched; refuses what cannot be."""
     require_case(case)
-    if not isinstance(coupled, bool):
-        raise TypeError(f"coupled must be True or False, got {coupled!r}")
-    if start not in STARTS:
-        raise ValueError(f'start must be "full_slip" or "rest", got {start!r}')
+    truth("coupled", coupled)
+    word("start", start, "full_slip", "rest")
     settings = Settings(
         Settings.cells if cells is None else count("cells", cells, LEAST_CELLS),
         Settings.steps if steps is None else count("steps_per_period", steps, LEAST_CELLS),

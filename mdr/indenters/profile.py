@@ -13,7 +13,7 @@ from mdr.indenters.mapped import SAMPLES
 from mdr.indenters.mapping.shape_check import as_heights
 from mdr.indenters.sampled_profile import radii
 from mdr.tools.arrays import Array
-from mdr.tools.checks import finite_array, plain, positive
+from mdr.tools.checks import finite_array, plain, positive_or_none
 from mdr.tools.fields import facts
 
 
@@ -27,10 +27,6 @@ def _name(name: str, value: Any, note: str = "") -> str | None:
     if value is not None and not isinstance(value, str):
         raise TypeError(f"{name} must be a string, got {value!r}")
     return value
-
-
-def _end(name: str, value: Any, note: str = "") -> float | None:
-    return None if value is None else positive(name, value, note)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +53,9 @@ class Profile(Indenter):
         default=(), kw_only=True, metadata=facts("m", "radii at which the slope jumps", radii)
     )
     r_max: float | None = field(
-        default=None, kw_only=True, metadata=facts("m", "radius at which the shape ends", _end, note="radius in m")
+        default=None,
+        kw_only=True,
+        metadata=facts("m", "radius at which the shape ends", positive_or_none, note="radius in m"),
     )
     name: str | None = field(default=None, kw_only=True, metadata=facts("", "what it is called", _name))
 

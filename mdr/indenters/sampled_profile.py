@@ -16,7 +16,7 @@ from mdr.indenters.mapping.quadrature import in_chunks
 from mdr.indenters.mapping.shape_check import FINE, Left, told_smoothing, why_no_shape, why_not
 from mdr.indenters.mapping.splines import DEGREE, SplineImage, fit
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive
+from mdr.tools.checks import finite, finite_array, in_range, not_negative, positive, word
 from mdr.tools.csv_header import Columns, Reading, Units, fault
 from mdr.tools.fields import facts
 from mdr.tools.warned import warn_outside
@@ -44,9 +44,7 @@ def radii(name: str, values: Any, note: str = "") -> tuple[float, ...]:
 
 
 def _tip(name: str, value: Any, note: str = "") -> str:
-    if not isinstance(value, str) or value not in ("round", "sharp"):
-        raise ValueError(f'{name} must be "round" or "sharp", got {value!r}')
-    return value
+    return word(name, value, "round", "sharp")
 
 
 @dataclass(frozen=True, repr=False)

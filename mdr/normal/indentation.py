@@ -38,7 +38,7 @@ from mdr.normal.indentation_kernels import Row, force_of, step
 from mdr.normal.load_control import static_depths
 from mdr.spring.law import N_PHI, Law, law_of, phi_of
 from mdr.tools.arrays import EPS, EXACT, SAME, Array
-from mdr.tools.checks import count, finite_array, instance
+from mdr.tools.checks import count, finite_array, instance, truth
 from mdr.tools.messages import short
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, number, span
@@ -144,8 +144,7 @@ def indent(
             f"{indenter.least_depth:.6g} m on by its whole face; indent() takes shapes whose contact is always a disc"
         )
     n_springs = count("n_springs", n_springs, 16)
-    if not isinstance(record, bool):
-        raise TypeError(f"record must be True or False, got {record!r}")
+    truth("record", record)
     if (u_z is None) == (F_z is None):
         raise ValueError("give either u_z, a history of depth, or F_z, one of force, and not both")
     t = _instants(t)

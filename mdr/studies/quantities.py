@@ -23,6 +23,7 @@ from mdr.march.result.slowest import least_velocity
 from mdr.normal.normal_force import full_cof, mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.arrays import Array
+from mdr.tools.checks import truth
 from mdr.tools.messages import offer, short
 
 
@@ -57,8 +58,7 @@ class Quantity:
             raise ValueError(f"name must be of letters, digits and _, and not that of a status, got {self.name!r}")
         if not callable(self.of):
             raise TypeError(f"of must be a function of the case, got {self.of!r}")
-        if not isinstance(self.per_velocity, bool):
-            raise TypeError(f"per_velocity must be True or False, got {self.per_velocity!r}")
+        truth("per_velocity", self.per_velocity)
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ from mdr.march.periodic.steady import BUDGET, accuracy_of
 from mdr.studies.axes import read_axes
 from mdr.studies.quantities import read_quantities
 from mdr.studies.work import MOST_NUMBERS
-from mdr.tools.checks import count, finite
+from mdr.tools.checks import count, finite, word
 from mdr.tools.messages import offer, short
 from mdr.tools.notation import numbers_in
 
@@ -131,8 +131,7 @@ def _number_of_values(name: str, value: Any) -> None:
 
 
 def _spacing(name: str, value: Any) -> None:
-    if value not in ("linear", "log"):
-        raise ValueError(f'{name} must be "linear" or "log", got {short(str(value))}')
+    word(name, value, "linear", "log")
 
 
 #: keys of a range, and what each must be

@@ -42,6 +42,11 @@ def positive(name: str, value: Any, note: str = "") -> float:
     return _ruled(name, number, number > 0, "be positive", note)
 
 
+def positive_or_none(name: str, value: Any, note: str = "") -> float | None:
+    """A number above zero, or none."""
+    return None if value is None else positive(name, value, note)
+
+
 def not_negative(name: str, value: Any, note: str = "") -> float:
     """A number at or above zero."""
     number = finite(name, value)
@@ -79,6 +84,21 @@ def count(name: str, value: Any, least: int) -> int:
     if value < least:
         raise ValueError(f"{name} must be at least {least}, got {value}")
     return int(value)
+
+
+def truth(name: str, value: Any) -> bool:
+    """True or False."""
+    if not isinstance(value, bool):
+        raise TypeError(f"{name} must be True or False, got {value!r}")
+    return value
+
+
+def word(name: str, value: Any, *words: str) -> str:
+    """One of two words or more."""
+    if not isinstance(value, str) or value not in words:
+        *first, last = (f'"{one}"' for one in words)
+        raise ValueError(f"{name} must be {', '.join(first)} or {last}, got {short(repr(value))}")
+    return value
 
 
 def instance(name: str, value: object, *kinds: type[Any]) -> None:

@@ -61,7 +61,7 @@ FAULTS = [  # what stands under [axes] and at the top, and how the faults begin
     ('"v_0" = 0.1', "", ["[axes] v_0 must be a list of values or { from = , to = , n = }, got 0.1"]),
     ('"v_0" = { from = 0, too = 1, n = 1, spacing = "logarithmic" }', "", [
         "[axes] v_0: too is no key of a range; did you mean to?", "[axes] v_0: to is missing from the range",
-        "[axes] v_0: n must be at least 2, got 1", '[axes] v_0: spacing must be "linear" or "log", got logarithmic',
+        "[axes] v_0: n must be at least 2, got 1", '[axes] v_0: spacing must be "linear" or "log", got \'logarithmic\'',
     ]),
     ('"v_0" = { from = 0, to = 1, n = 1000000000000 }', "", ["[axes] v_0: n must be at most 100000000, got 10000"]),
     ('"T" = { from = 0, to = 1, n = 3, spacing = "log" }', "", ['[axes] T: a range with spacing = "log" must']),

@@ -23,6 +23,7 @@ import numpy as np
 from mdr.indenters.mapping.shape_check import REFUSED, TOLD, Left
 from mdr.indenters.mapping.splines import spline
 from mdr.tools.arrays import SAME, Array
+from mdr.tools.checks import word
 
 TIPS = {"any": 0.0, "round": 1.5, "sharp": 2.0, "flat": 1.0}  #: power of d that is taken out of F
 #: how many of the first coefficients of F' a tip makes zero; what is tried one after the other
@@ -32,9 +33,7 @@ PIECES, DEGREE = 40, 3  #: of F', pieces at most
 
 def tip_of(name: str, value: Any, note: str = "") -> str:
     """The rule of a field that names a kind of tip."""
-    if not isinstance(value, str) or value not in TIPS:
-        raise ValueError(f"{name} must be one of {', '.join(TIPS)}, got {value!r}")
-    return value
+    return word(name, value, *TIPS)
 
 
 class Through:
