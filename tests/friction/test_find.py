@@ -128,7 +128,7 @@ def test_the_velocity_of_a_share_is_that_of_what_is_held():
 
 def test_of_the_velocity_there_is_one_wish():
     for wish in ({"v_0": 1e-3, "share": 0.9}, {"v_c": 1e-3}, {"cof": 0.1, "share": 0.9}, {}):
-        with pytest.raises(ValueError, match="of v_0 give one wish: cof or share"):
+        with pytest.raises(ValueError, match="of v_0 give one wish: cof, share or smooth"):
             mdr.find(CASE, "v_0", **wish)
 
 
