@@ -224,13 +224,21 @@ def test_what_falling_friction_lacks_is_left_out_or_refused(tmp_path, capsys):
     path.write_text(mdr.write_case(case), encoding="utf-8")
     assert main(["run", str(path), "--v-0", "5mm/s", "--n-springs", "32", "--steps", "64"]) == 0
     assert "by Eq. (1), mu_0 = 0.5" in capsys.readouterr().out
-    (tmp_path / "way.csv").write_text("t [s],u_x [m],u_z [m]\n0,0,1e-5\n1,1e-5,1e-5\n")
-    for command in (
-        ["export", str(path), "-o", str(tmp_path / "one.h")],
-        ["record", str(tmp_path / "way.csv"), str(path)],
-    ):
-        assert main(command) != 0
-        assert "takes Coulomb's friction" in capsys.readouterr().err
+    assert main(["export", str(path), "-o", str(tmp_path / "one.h")]) != 0
+    assert "takes Coulomb's friction" in capsys.readouterr().err
+
+
+def test_a_record_has_the_static_coefficient_of_its_case(tmp_path, capsys):
+    """Springs that have not slipped yet bear mu_s."""
+    still = mdr.NormalOscillation(u_z0=20e-6, du_z=8e-6, omega=300.0)
+    law = mdr.StaticKinetic(mu_s=0.6, mu_k=0.5)
+    case = mdr.SlidingContact(mdr.FlatPunch(a=1e-3), mdr.Elastic(E=3e6, nu=0.5), oscillation=still, friction=law)
+    reach = 0.5 * case.material.mindlin_ratio * 1e-5  # way to the kinetic limit
+    (tmp_path / "falls.toml").write_text(mdr.write_case(case), encoding="utf-8")
+    way = tmp_path / "way.csv"
+    way.write_text(f"t [s],u_x [m],u_z [m]\n0,0,1e-5\n1,{1.19 * reach},1e-5\n", encoding="utf-8")
+    told = json_of(capsys, ["record", str(way), str(tmp_path / "falls.toml"), "--json"])
+    assert told["cof"] == pytest.approx(1.19 * 0.5 / 2, rel=1e-9)
 
 
 def test_a_run_that_does_not_settle_fails(capsys, punch, monkeypatch):
