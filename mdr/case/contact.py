@@ -25,7 +25,7 @@ from mdr.case.scales import Scales
 from mdr.indenters.base import Indenter
 from mdr.materials.base import Material, answers, refuse_other_materials
 from mdr.tools.arrays import SAME
-from mdr.tools.checks import instance, not_negative
+from mdr.tools.checks import instance, not_negative, positive
 from mdr.tools.fields import Record, check_fields, facts, facts_of
 from mdr.tools.messages import short
 from mdr.tools.summary import Row, Summarised, Summary, number
@@ -129,6 +129,12 @@ class SlidingContact(Scales, Record, Summarised):
             raise ValueError(
                 f"friction = {law!r} answers mu_0 = {mu_0!r}, tau_0 = {tau_0!r} Pa, is_coulomb = {law.is_coulomb!r}: "
                 "one of the numbers must be above 0, and Coulomb's friction has no strength"
+            )
+        stick = positive(f"stick of {type(law).__name__}", law.stick, "static over kinetic friction, 1 where it stays")
+        if stick < 1 or (stick > 1 and (law.is_coulomb or not mu_0)):
+            raise ValueError(
+                f"friction = {law!r} answers stick = {stick!r}, mu_0 = {mu_0!r}, is_coulomb = {law.is_coulomb!r}: "
+                "stick must not be below 1; where it is above, mu_0 must be above 0 and the law is not Coulomb's"
             )
         kept = {"friction": law, "_law": law, "mu_0": mu_0, "tau_0": tau_0, "mu_s": static_of(law)}
         for name, value in kept.items():

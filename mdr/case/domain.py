@@ -104,15 +104,14 @@ HARMONIC = Condition(
 ABOVE_ZERO = Condition("working_depth", "a mean depth above 0", lambda case: case.working_depth > 0)
 ELASTIC = Condition("material", "an elastic material", lambda case: not case.rheology.remembers)
 NO_ARMS = Condition("material", "an elastic or Kelvin material", lambda case: not case.material.contact_arms)
-NO_STRENGTH = Condition("tau_0", "no shear strength", lambda case: not case.friction.needs_area)
 RIGID_OR_MASS = Condition(
     "pull", "a rigid pull or a body with a mass", lambda case: case.pull.is_rigid or case.pull.coefficients[0] > 0
 )
-FLAT = Condition("indenter", "a flat face that is kept in contact", lambda case: not case.edge_moves)
+KEPT = Condition("indenter", "a contact whose edge stays where it is", lambda case: not case.edge_moves)
 
 
 def where_it_falls(*conditions: Condition) -> tuple[Condition, ...]:
-    """The same, asked of friction that falls alone."""
+    """These conditions, for friction that falls alone."""
 
     def asked(one: Condition) -> Condition:
         words = f"{one.words} where friction falls"

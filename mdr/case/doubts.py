@@ -93,8 +93,9 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
             "softer than a gel: is a modulus in MPa or GPa" if modulus < 1e6 else "stiffer than diamond: is it in kPa"
         )
         yield f"material: its modulus at this frequency, {modulus:.4g} Pa, is {side}?"
-    if known.mu_0 > GREATEST_MU_0:
-        yield f"mu_0 = {known.mu_0:.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
+    if known.mu_s > GREATEST_MU_0:
+        name = "mu_0" if known.mu_0 > GREATEST_MU_0 else "mu_s"
+        yield f"{name} = {getattr(known, name):.4g} is more than {GREATEST_MU_0:g}: is it a percentage, or a force?"
     if known.tau_0 > STRONGEST * modulus:
         yield (
             f"tau_0 = {known.tau_0:.4g} Pa is more than {STRONGEST:g} of the modulus, {modulus:.4g} Pa, which no face "
@@ -104,7 +105,7 @@ def _of_sizes(known: SlidingContact) -> Iterator[str]:
     force, a = known.indenter.force(d, known.material.E_star), known.indenter.contact_radius(d)
     cof = float(known.friction.full(force, a) / force)
     if cof < LEAST_MU_0:
-        name = "mu_0" if known.friction.is_coulomb else "with tau_0, the coefficient of friction"
+        name = "with tau_0, the coefficient of friction" if known.friction.needs_area else "mu_0"
         yield f"{name} = {cof:.4g} is less than {LEAST_MU_0:g}, that of a joint: is it in another unit?"
 
 

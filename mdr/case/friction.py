@@ -260,7 +260,7 @@ class StaticKinetic(Friction):
 
     @property
     def taken(self) -> tuple[str, ...]:
-        """Both, and mu_0 for mu_k."""
+        """Both; mu_0 for mu_k; and tau_0, to be refused in words."""
         return (*self.numbers, "mu_0", "tau_0")
 
     @property
@@ -272,6 +272,8 @@ class StaticKinetic(Friction):
         """The law with other numbers; mu_0 is mu_k."""
         if changes.pop("tau_0", 0.0):
             raise ValueError(NO_LAW)
+        if {"mu_0", "mu_k"} <= set(changes):
+            raise ValueError("mu_0 and mu_k say the same: give one of them")
         if "mu_0" in changes:
             changes["mu_k"] = changes.pop("mu_0")
         return super().varied(**changes)
@@ -282,7 +284,7 @@ UNNAMED = (
     StaticKinetic,
     ShearStrength,
     Coulomb,
-)  #: laws that a file need not name: the first with a key that the last has not
+)  #: laws that a file need not name: the first of them whose keys are there, beside those of Coulomb
 #: numbers of friction that stand without a law
 SHORTHAND = tuple(dict.fromkeys(name for law in reversed(UNNAMED) for name in fields_of(law)))
 
@@ -318,7 +320,7 @@ def law_of(friction: Any, mu_0: Any, tau_0: Any, mu_s: Any = None, known: Fricti
 
 def static_of(law: Friction) -> float:
     """Friction over the normal force up to which a point at rest stays there [-]."""
-    return float(getattr(law, "mu_s", law.mu_0))
+    return float(getattr(law, "mu_s", law.mu_0 * law.stick))
 
 
 def named_full(full: float, mu_0: float) -> str:

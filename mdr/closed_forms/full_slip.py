@@ -91,9 +91,9 @@ def static_cof(case: SlidingContact) -> float:
     elif case.material.contact_arms:
         least = max(least_of(normal_force(case, 2 * np.pi * np.arange(N_STEPS) / N_STEPS)), 0.0)
     else:
-        least = float(case.indenter.force(kept, case.material.E_star)) * (1 + case.friction.stick) / 2
+        least = float(case.indenter.force(kept, case.material.E_star))
     a = float(case.indenter.contact_radius(kept)) if case.friction.needs_area and case.keeps_contact else 0.0
-    return float(case.friction.full(least, a)) / mean_normal_force(case)
+    return float(case.friction.full(least, a)) * (1 + case.friction.stick) / 2 / mean_normal_force(case)
 
 
 def _slips_at_any_pull(case: SlidingContact) -> bool:

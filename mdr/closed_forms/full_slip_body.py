@@ -12,12 +12,13 @@ Method. Without arms F_N is analytic between the phases at which the edge turns 
 there it bends like a power, or jumps (a punch on dashpots). The period is cut there, and panels shrink geometrically
 towards each cut. In every panel the body is solved by Gauss-Legendre collocation, which neither damps nor excites its
 free oscillation; the panels are chained to a map over the period, whose fixed point is the periodic motion. A rigid
-pull needs none of this: the velocity is the greatest of a harmonic sum, at its turns and at the ends of the contact.
+pull needs none of this, unless friction falls: the velocity is the greatest of a harmonic sum, at its turns and at the
+ends of the contact.
 
 Where friction falls, mu_0 is mu_k, and a spring that touches anew sticks first if its force would grow to less than
 mu_s f_z in stick. In full slip its end is at mu_k kappa s, in flight too. So it slips at once if
 
-    v_0 - y' - mu_k kappa s' > mu_s kappa (u_z' - s'),
+    v_0 + y' - mu_k kappa s' > mu_s kappa (u_z' - s'),
 
 s' the rate of the free surface before the touch, 0 of an elastic material and -s/tau of a Kelvin material. The body
 moves as before, as nothing sticks. Another motion may go on beside this one, in which a body sticks and slips.
@@ -148,13 +149,13 @@ def full_slip_critical_velocity(case: SlidingContact, direction: int = 1) -> flo
         return greatest_rate(
             case, lambda phase: harmonic_sum(rates, phase) - y_rate(begin + np.mod(phase - begin, 2 * np.pi))
         )
-    slips, middle = harmonic_sum(rates, panels.phase) - y_dot, 0.5 * (panels.low + panels.high)
-    v_c = _greatest(slips[_in_contact(middle, touches, leaves)])
+    needed, middle = harmonic_sum(rates, panels.phase) - y_dot, 0.5 * (panels.low + panels.high)
+    v_c = _greatest(needed[_in_contact(middle, touches, leaves)])
     if not touch_anew:
         return v_c
-    slips += _closing_in(case, panels.phase)
-    at_once = _at_begin(slips[_grows(case, panels.low)])  # of a flat face, which touches at an instant
-    return max(v_c, _greatest(slips[_grows(case, middle)]), float(at_once.max(initial=-np.inf)))
+    needed += _closing_in(case, panels.phase)
+    of_flat = _at_begin(needed[_grows(case, panels.low)])  # it touches at an instant
+    return max(v_c, _greatest(needed[_grows(case, middle)]), float(of_flat.max(initial=-np.inf)))
 
 
 def _closing_in(case: SlidingContact, phase: Array) -> Array:

@@ -29,7 +29,7 @@ from itertools import product
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import FLAT, Domain, where_it_falls
+from mdr.case.domain import KEPT, Domain, where_it_falls
 from mdr.march.periodic.steady import BUDGET, MarchEnd, Resolution, accuracy_of
 from mdr.march.result.refinement import MOST_SPRINGS, MOST_STEPS, default_springs, default_steps, oscillations
 from mdr.march.result.run import SlidingRun, finish
@@ -41,7 +41,7 @@ from mdr.tools.progress import Ticker, time_is_over, time_limit
 from mdr.tools.summary import Summarised, Summary, number
 
 #: cases in which springs that slip tell where stick ends: one that touches anew on friction that falls sticks longer
-TOLD_BY_SLIP = Domain(where_it_falls(FLAT), instead="full_slip_critical_velocity")
+TOLD_BY_SLIP = Domain(where_it_falls(KEPT), instead="full_slip_critical_velocity")
 LEAST_V_C = 1e-4  #: times Eq. (1): a critical velocity below this is not told from zero
 HIGHEST = 1e2  #: times Eq. (1): if no run below this is free, there is no v_c
 
@@ -375,9 +375,9 @@ class _Search:
 
 
 def _slips(run: SlidingRun) -> bool:
-    """True if no spring sticks for longer than it hesitates at its touch."""
+    """True if no spring sticks for longer than it hesitates at its touch, in a motion that was followed to its end."""
     # springs hesitate for one step at their touch; 2e-5 below v_c the share is above 1e-3
-    return run.stick_share < 1e-4 and run.least_slip > 0
+    return run.stick_share < 1e-4 and run.least_slip > 0 and run.kind != "averaged"
 
 
 def _is_free(run: SlidingRun) -> bool:

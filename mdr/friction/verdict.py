@@ -13,7 +13,7 @@ import numpy as np
 
 from mdr import half_space
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import ELASTIC, FLAT, HARMONIC, RIGID, UNSHAKEN, Domain, OutsideDomain, domain_of
+from mdr.case.domain import ELASTIC, HARMONIC, KEPT, RIGID, UNSHAKEN, Condition, Domain, OutsideDomain, domain_of
 from mdr.closed_forms.across import static_across
 from mdr.closed_forms.coupling import LOSS, coupling_loss, radial_rub
 from mdr.closed_forms.critical_velocity import NEARLY, critical_velocity, formula_of
@@ -31,6 +31,7 @@ from mdr.friction.measured_velocity import (
     measure_critical_velocity,
 )
 from mdr.friction.shaken import band_of_pull, no_load_velocity
+from mdr.indenters import FlatPunch
 from mdr.march.periodic.steady import BUDGET
 from mdr.march.result.slide import slide
 from mdr.normal.normal_force import full_cof
@@ -41,7 +42,9 @@ from mdr.tools.keywords import offering
 from mdr.tools.progress import time_limit
 from mdr.tools.summary import Printed, with_error
 
-JUMPS = Domain((RIGID, ELASTIC, UNSHAKEN, HARMONIC, FLAT), instead="slide")  #: where falling_friction is that of a case
+PUNCH = Condition("indenter", "a flat punch", lambda case: isinstance(case.indenter, FlatPunch))
+#: where falling_friction is that of a case, as all its springs are alike
+JUMPS = Domain((RIGID, ELASTIC, UNSHAKEN, HARMONIC, KEPT, PUNCH), instead="slide")
 SAMPLES = 200  #: velocities up to v_c at which it is asked for
 STRONG = 0.02  #: of what springs leave out (beta, lambda, static friction over mu_0), from which it is said
 

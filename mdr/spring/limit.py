@@ -40,8 +40,8 @@ NO_MODES, STICKS_ALIKE = np.zeros(0), np.ones(1)
 
 
 class Strength(NamedTuple):
-    """The limit of n springs with a shear strength in a step: a share of the normal force, and sqrt(a² - x²) of a
-    spring at x, a the radius of contact.
+    """The limit of n springs in a step, where it is not Coulomb's: a share of the normal force, and sqrt(a² - x²) of a
+    spring at x, a the radius on which a shear strength acts; and what falls where springs are let go.
     """
 
     coulomb: float  #: share of the normal force of a spring, over its stiffness, that friction bears

@@ -1,16 +1,16 @@
 """The steady state of a contact whose friction falls as springs are let go: after how many periods it repeats itself,
 or what it comes to on average where it does not.
 
-What the other searches rest on ends here. Two motions may move apart, as one spring may be let go where the other still
-sticks: a state of one period need not exist, and there may be several. So this marches, and looks whether a state comes
-back after n periods. Springs of one contact may come back after different numbers of them, so that a multiple is looked
-for too. Where none comes back the mean over a long run is the answer, and the spread of the means of its blocks tells
-its statistical error.
+What the other searches rest on does not hold here. Two motions may move apart, as one spring may be let go where the
+other still sticks: a state of one period need not exist, and there may be several. So this marches, and looks whether a
+state comes back after n periods. Springs of one contact may come back after different numbers of them, so that a
+multiple is looked for too. Where none comes back the mean over a long run is the answer, and the spread of the means of
+its blocks tells its statistical error.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,7 +26,7 @@ COMES_BACK = range(1, 13)  #: periods after which a state is looked for; 12, as 
 DYING = 1e-4  #: of the friction of full slip, what dies out at most where a state has come back
 FIRST, MOST = 96, 4096  #: periods between two judgements, at first, and at most where no state comes back
 BLOCKS = 16  #: of the second half of a run
-SIGMAS = 3.0  #: standard deviations of a mean over blocks that its error is
+SIGMAS = 3.0  #: standard deviations of a mean over blocks, taken as its error
 NEAR = 4.0  #: times the error of a rate on a parabola: twice what this and the greatest rate at nodes may be off
 DRAWN = 8.0  #: times a pull has to have gone as far as springs can be stretched, for blocks to be alike
 
@@ -38,7 +38,7 @@ class _March:
     states: list[MarchState]  #: the last ones, one a period
     periods: Periods  #: since the start
     back: tuple[int, float] = (0, UNKNOWN)  #: after how many periods it comes back, and how far its COF is from that
-    over: bool = field(default=False)
+    over: bool = False
 
 
 def repeated(
@@ -73,17 +73,18 @@ def repeated(
         settling = Settling(float(cofs[-n:].mean()), spread, True, kind, gain=1.0, across=across)
         return Orbit(state, settling, least_slip)
     mean, spread = _averaged(at.periods)
-    if cofs.size < DRAWN * pre_sliding:
-        why = f"after {cofs.size} periods springs have not been let go often enough, which takes {pre_sliding:.3g} each"
-        return Orbit(state, Settling(mean.real, UNKNOWN, False, "unsettled", why=why, across=mean.imag))
+    why = ""
     if time_is_over() and cofs.size < most:
         why = f"the time limit is over after {cofs.size} periods"
+    elif cofs.size < DRAWN * pre_sliding:
+        why = f"after {cofs.size} periods springs have not been let go often enough, which takes {pre_sliding:.3g} each"
+    if why:
         return Orbit(state, Settling(mean.real, UNKNOWN, False, "unsettled", why=why, across=mean.imag))
     return Orbit(state, Settling(mean.real, min(spread, UNKNOWN), True, "averaged", across=mean.imag))
 
 
 def beside_jump(stepper: Stepper) -> bool:
-    """Whether a rigid pull is as fast as springs that slip need it, to within what parabolas miss of their rates: there
+    """Whether a rigid pull is at v_c of springs that keep contact, to within what parabolas miss of their rates: there
     friction falls by a jump, and a run may be on the wrong side of it.
     """
     (z, z_dot, v, x, x_dot), h = stepper.motion, stepper.scaled.drive.h
@@ -123,7 +124,9 @@ def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]
         late = stepper.late(one, last, n)
         if missing + late <= stepper.tolerance:
             parts = (d for d in COMES_BACK if n % d == 0)  # what dies out may swing in a rhythm of its own
-            return next(d for d in parts if d == n or _apart(stepper, last, states[-1 - d]) < DYING), 2 * missing + late
+            apart = {d: _apart(stepper, last, states[-1 - d]) if d < n else 0.0 for d in parts}
+            d = next(d for d in apart if apart[d] < DYING)
+            return d, 2 * missing + late + apart[d]
     return 0, UNKNOWN
 
 

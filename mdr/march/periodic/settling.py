@@ -10,7 +10,8 @@ a window: of a beat that fits into it N times they keep some N^-3, where the pla
 when the spread is below the tolerance.
 
 With any damping no motion is quasi-periodic or of several periods for good, as two motions one period apart merge like
-any other two (validation/uniqueness.py): such a kind names a transient that the mean outlives.
+any other two (validation/uniqueness.py): such a kind names a transient that the mean outlives. Where friction falls
+they do not merge, and states of several periods are found by repeats.py.
 """
 
 from __future__ import annotations

@@ -16,13 +16,15 @@ from mdr.march.periodic.theorems import outside
 from mdr.march.periodic.waiting import NO_STEP
 from mdr.tools.arrays import Array
 
+SEEN = 16  #: periods that tell shares and energies of a motion that does not come back
+
 
 def looked_at(end: MarchEnd) -> tuple[MarchEnd, list[PeriodRecord], list[PeriodRecord]]:
     """The end of a march after further periods; those that modes and energies are taken from, all after which a state
     comes back, and those that are to be kept, one at least.
     """
     stepper, state, n = end.stepper, end.orbit.state, end.resolution.record
-    repeats = end.settling.periods if end.settling.solved else 1
+    repeats = end.settling.periods if end.settling.solved else SEEN if end.settling.kind == "averaged" else 1
     records: list[PeriodRecord] = []
     while len(records) < max(repeats, n, 1):
         state, record = stepper.observe(state, keep=n > 0)
@@ -36,7 +38,7 @@ def looked_at(end: MarchEnd) -> tuple[MarchEnd, list[PeriodRecord], list[PeriodR
             waited.append(record.period)
         end = end.judged(waited.assess())
     accounts = records[-1:] if end.awaits else records[:repeats]  # the same periods however many are kept
-    why = _contradiction(end, accounts[0]) if end.settling.settled else ""
+    why = next(filter(None, (_contradiction(end, one) for one in accounts)), "") if end.settling.settled else ""
     return end.unsettled(why, contradicts=True) if why else end, accounts, records[-max(1, n) :]
 
 

@@ -62,11 +62,11 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     #: from the other start; empty if all is well
     why: str
     stick_share: float  #: force-weighted share of contact time spent sticking [-]
-    least_slip: float  #: smallest slip velocity, along the pull, of the springs in contact in that period [m/s]
+    least_slip: float  #: smallest slip velocity, along the pull, of the springs in contact in that time [m/s]
     mean_F_x: float  #: [N]
     mean_F_y: float  #: [N]
     mean_F_z: float  #: [N]
-    energy_balance: EnergyBalance  #: of one of the last periods
+    energy_balance: EnergyBalance  #: of one of the last periods, or a mean over those after which the motion comes back
     v_0: float  #: pulling velocity [m/s]
     mu_0: float  #: local coefficient of friction [-]
     full_cof: float  #: COF of full slip, with nothing lost [-]: mu_0, or what a shear strength makes of it
@@ -95,7 +95,7 @@ class SlidingRun(Summarised, Tabled, ArrayRecord):
     @property
     def periods(self) -> int | None:
         """After how many periods of the vibration the motion repeats itself; None where it does not, or was not seen
-        to. Shares, energies and powers are means over them.
+        to. Shares, energies and powers are means over them, or over 16 periods of a motion that does not.
         """
         if not self.settled or not self.kind.startswith(("full slip", "period")):
             return None

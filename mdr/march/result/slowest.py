@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mdr.case.contact import SlidingContact
-from mdr.case.domain import MARCHED, WITH_MASS, holds_for
+from mdr.case.domain import NO_STRENGTH, WITH_MASS, holds_for, where_it_falls
 from mdr.march.dynamics.body import U
 from mdr.march.dynamics.stepper import Stepper
 from mdr.march.periodic.repeats import DRAWN
@@ -16,7 +16,7 @@ from mdr.normal.resolved import resolved
 from mdr.tools.checks import positive
 
 MOST = 10**6  #: periods that are marched
-TAKEN = (WITH_MASS, *(one for one in MARCHED if one.quantity != "pull"))
+TAKEN = (WITH_MASS, *where_it_falls(NO_STRENGTH))
 
 
 @holds_for(*TAKEN, instead="slide(case, v_0)", of=resolved)
