@@ -18,11 +18,11 @@ from mdr.march.dynamics.state import UNKNOWN, MarchState
 from mdr.march.dynamics.stepper import Periods, Stepper, joined
 from mdr.march.periodic.orbit import Orbit
 from mdr.march.periodic.settling import Settling
-from mdr.tools.arrays import EXACT
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.iterate import iterate
 from mdr.tools.progress import time_is_over
 
-COMES_BACK = range(1, 13)  #: periods after which a state is looked for; 12, as some springs need 3 and others 4
+COMES_BACK = 64  #: periods after which a state is looked for, at most
 DYING = 1e-4  #: of the friction of full slip, what dies out at most where a state has come back
 FIRST, MOST = 96, 4096  #: periods between two judgements, at first, and at most where no state comes back
 BLOCKS = 16  #: of the second half of a run
@@ -53,11 +53,12 @@ def repeated(
     most = max(most or MOST, FIRST, least)
 
     def go_on(at: _March) -> _March:
-        states, parts = list(at.states), [at.periods]
+        states, parts, cofs = list(at.states), [at.periods], at.periods.cof
         for _ in range(max(FIRST, at.periods.cof.size // 2)):
             state, periods = stepper.advance(states[-1], 1)
-            states, parts = [*states[-2 * COMES_BACK[-1] :], state], [*parts, periods]
-            back = _comes_back(stepper, states)
+            states, parts = [*states[-2 * COMES_BACK :], state], [*parts, periods]
+            cofs = np.append(cofs[-COMES_BACK:], periods.cof)
+            back = _comes_back(stepper, states, cofs)
             if back[0] or time_is_over():
                 break
         periods = joined(parts)
@@ -107,13 +108,13 @@ def _averaged(periods: Periods) -> tuple[complex, float]:
     return complex(means.mean()), max(SIGMAS * float(means.std(ddof=1)) / np.sqrt(BLOCKS), moved)
 
 
-def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]:
+def _comes_back(stepper: Stepper, states: list[MarchState], cofs: Array) -> tuple[int, float]:
     """After how many periods the last state comes back, and what is missing in the COF; (0, UNKNOWN) if it does not.
 
     A change that shrinks by the ratio r in as many periods leaves r/(1 - r) of it to come; the mean over them misses no
     more than the change itself.
     """
-    for n in COMES_BACK:
+    for n in (np.flatnonzero(np.abs(cofs[-2::-1] - cofs[-1]) < DYING) + 1).tolist():
         if len(states) <= 2 * n:
             break
         last, one, two = (states[-1 - k * n] for k in range(3))
@@ -123,7 +124,7 @@ def _comes_back(stepper: Stepper, states: list[MarchState]) -> tuple[int, float]
         missing = change if change <= EXACT else change * before / (before - change) if change < before else UNKNOWN
         late = stepper.late(one, last, n)
         if missing + late <= stepper.tolerance:
-            parts = (d for d in COMES_BACK if n % d == 0)  # what dies out may swing in a rhythm of its own
+            parts = (d for d in range(1, n + 1) if n % d == 0)  # what dies out may swing in a rhythm of its own
             apart = {d: _apart(stepper, last, states[-1 - d]) if d < n else 0.0 for d in parts}
             d = next(d for d in apart if apart[d] < DYING)
             return d, 2 * missing + late + apart[d]

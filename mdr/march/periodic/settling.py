@@ -34,7 +34,7 @@ class Settling:
     mean: float  #: over the second half, by smooth weights
     spread: float  #: bound on what is missing to the limit; UNKNOWN when the run is too short to tell
     settled: bool  #: whether it is an answer: the spread below its tolerance, and nothing known to move
-    kind: str  #: "periodic", "period-2" ... "period-12", "averaged", "quasi-periodic" or "unsettled"
+    kind: str  #: "periodic", "period-2" ... "period-64", "averaged", "quasi-periodic" or "unsettled"
     gain: float | None = None  #: of a periodic state that was solved for (shooting.py); None of an awaited motion
     why: str = ""  #: what still moves where the windows agree
     contradicts: bool = False  #: whether the mean contradicts a theorem (theorems.py)
