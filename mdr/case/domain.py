@@ -85,7 +85,7 @@ def domain_of(function: Callable[..., Any]) -> Domain:
 
 
 COULOMB = Condition("friction", "Coulomb's friction", lambda case: case.friction.is_coulomb)
-NO_STRENGTH = Condition("tau_0", "no shear strength", lambda case: not case.friction.needs_area)
+NO_STRENGTH = Condition("friction", "no shear strength", lambda case: not case.friction.needs_area)
 ALIKE = Condition("friction", "friction that does not fall", lambda case: case.friction.stick == 1)
 STRENGTH = Condition("friction", "a shear strength", lambda case: isinstance(case.friction, ShearStrength))
 RIGID = Condition("pull", "a rigid pull", lambda case: case.pull.is_rigid)

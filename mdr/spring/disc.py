@@ -4,7 +4,9 @@ of contact: a disc in the place of the interval of line.py.
 * *stick*: e goes with the top, L[e] is known, until its length comes to stick R;
 * *slip*: |L[e]| = R, along the slip velocity, which turns (dragged.py), until it comes to zero.
 
-Where friction falls, stick is above 1, and the force of a spring that is let go falls to R along itself at once.
+Where friction falls, stick is above 1, and the force of a spring that is let go falls to R along itself at once. One
+that slips goes on into the next step in any direction: with a dashpot it turns back there without a stop, where the
+velocity of the top jumps.
 
 Arms remember the slip, which depends on their memory: the two are brought in line with each other.
 """
