@@ -154,6 +154,19 @@ def test_a_spring_sticks_up_to_the_static_limit_and_its_mode_is_part_of_the_stat
     assert_allclose(F[1], 1.1 * F[0], rtol=1e-12)
 
 
+def test_the_tangent_where_friction_falls_is_that_of_the_force():
+    """In steps in which some springs are let go, along the way that goes on: next to where others are."""
+    contact = mdr.ContactElement(BALL, ELASTIC, MU_0, u_z_max=DEPTH, n_springs=16, mu_s=1.5 * MU_0)
+    state, d, soft = contact.at_rest((0, 0, DEPTH)), 1e-7 * REACH, []
+    for x in REACH * np.arange(0.07, 2.0, 0.14):
+        F, new, K = contact.step(state, 0.0, (x, 0, DEPTH), tangent=True)
+        ahead, _ = contact.step(state, 0.0, (x + d, 0, DEPTH))
+        assert_allclose(K[:, 0], (ahead - F) / d, rtol=0, atol=1e-5 * contact._row.force_x / contact._row.length_x)
+        state, soft = new, [*soft, K[0, 0]]
+    assert soft[0] > 0
+    assert abs(soft[-1]) < 1e-6 * soft[0]
+
+
 def test_other_numbers_of_friction_that_falls_are_refused():
     with pytest.raises(ValueError, match=r"mu_s = 0\.4 must not be below mu_0 = 0\.5: raise mu_s"):
         mdr.ContactElement(BALL, ELASTIC, MU_0, u_z_max=DEPTH, mu_s=0.4)
