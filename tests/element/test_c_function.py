@@ -3,6 +3,7 @@
 import copy
 import ctypes
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,9 +13,12 @@ from numpy.testing import assert_array_equal
 KIND = ctypes.CFUNCTYPE(ctypes.c_int, DOUBLES, DOUBLES, ctypes.c_double, DOUBLES, DOUBLES, DOUBLES)
 
 
-@pytest.mark.parametrize("material", [ELASTIC, ARMS], ids=["elastic", "arms"])  # each is compiled, in some seconds
-def test_the_function_at_its_address_makes_the_steps_of_the_element(material):
-    contact = element(material, n_springs=24)
+# each is compiled, in some seconds
+@pytest.mark.parametrize(
+    ("material", "mu_s"), [(ELASTIC, None), (ARMS, None), (ELASTIC, 0.7)], ids=["elastic", "arms", "friction falls"]
+)
+def test_the_function_at_its_address_makes_the_steps_of_the_element(material, mu_s):
+    contact = replace(element(material, n_springs=24), mu_s=mu_s)
     rng, step = np.random.default_rng(5), KIND(contact.address)
     state = own = contact.at_rest((0, 0, 20e-6))
     for k in range(12):
