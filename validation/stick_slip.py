@@ -197,29 +197,26 @@ def claim(effort: str) -> Claim:
     Verdict: holds if dither is fast for the body and slow for it on a damped contact
 
     Sentence: Stick-slip ends once vibration takes A = μ_s F − μ_k F − v_0 √(k_x m)/V(ζ) off the breakaway, or, at 20
-    ω_0, {of_20:.2f} of it more. {short}
+    ω_0, {of_20:.2f} of it more. Without it runs have the limit cycle of the law.
     """
     quick = effort == "quick"
-    sets, ways = (
-        ENDS[: 1 if quick else None],
-        "up and down" if quick else "up and down, and of the tool along the slide",
-    )
-    chosen = [(*one, along, over) for one in sets for along in ((False,) if quick else (False, True)) for over in OVER]
+    ways = "up and down" if quick else "up and down, and of the tool along the slide"
+    bodies = {False: ENDS[: 1 if quick else None], True: ENDS[: 0 if quick else 2]}
+    chosen = [(*one, along, over) for along, some in bodies.items() for one in some for over in OVER]
     ends = [end_of(*one) for one in progress(chosen, "stick_slip")]
     cycles = [cycle(*one, 2048 if quick else 8192) for one in CYCLES[: 2 if quick else None]]
     times = [let_go(*one) for one in LET_GO[:: 2 if quick else 1]]
     slow, fast = ([end for end in ends if end.over == over] for over in OVER)
     of_10, of_20 = (max(end.excess for end in some) for some in (slow, fast))
-    zetas, sticks = (ranged(one[k] for one in sets) for k in (0, 2))
+    zetas, sticks = (ranged(one[k] for one in chosen) for k in (0, 2))
     n_cycles, n_let_go, agree = len(cycles), len(times), sum(one.run == one.law for one in times)
     most_periods, worst_cycle = max(one.law for one in times), max(max(map(abs, one[1:])) for one in cycles)
     swift = max((end.speed for end in ends if end.along), default=np.nan)
     along = "" if quick else f"The velocity of a shaken tool is then {swift:.2f} of that of a jump at most."
-    short = "Without it runs have the limit cycle of the law."
     return Claim(
         **told(claim, locals()),
         checks=(*_cycle_checks(cycles, quick), *_end_checks(slow, fast), *_period_checks(times)),
-        figures=(_figure(*_map(7 if quick else 20)),),
+        figures=(_figure(*_map(7 if quick else 14)),),
         equations=_EQUATIONS,
     )
 

@@ -323,3 +323,16 @@ def test_stick_slip_without_vibration_is_its_closed_form(contact_over_spring, da
     assert_allclose(run.mean_F_x, law.mean_force, rtol=1e-6)
     assert_allclose(run.stick_share, law.rest, rtol=1e-6)
     assert_allclose(np.diff(run.u_x).max() / (run.t[1] - run.t[0]), law.speed, rtol=3e-6)  # means over steps
+
+
+@pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
+def test_small_steps_agree_with_stick_slip_whose_slips_differ_for_ever():
+    """Where there is no closed form: an undamped body whose swing on the contact never dies out."""
+    full, k_xc = 0.5 * SHAPES["punch"].force(20e-6, MATERIALS["elastic"].E_star), contact(1e-6, 1.5).k_xc
+    m, v_0 = 0.1 * k_xc / 600.0**2, 0.01 * 0.5 * full * 600.0 / (0.1 * k_xc)
+    with pytest.raises(ValueError, match="slips still differ"):
+        mdr.laws.stick_slip(v_0, 1.5 * full, full, 0.1 * k_xc, m, k_xc=k_xc)
+    case = contact(1e-6, 1.5, pull=mdr.SpringPull(k_x=0.1 * k_xc, m=m))
+    run = mdr.slide(case, v_0, start="rest", n_springs=32, steps_per_period=256)
+    assert run.kind == "averaged"
+    assert abs(run.share - of_twin(case, v_0 / case.unit_velocity, 1200, 1000)) <= run.cof_error / 0.5 < 0.02
