@@ -227,6 +227,15 @@ def test_the_faster_the_vibration_the_nearer_is_stick_slip_to_end_where_the_law_
     assert 0 < missed[1] < 0.4 * missed[0] < 0.1
 
 
+def test_a_vibration_across_the_slide_ends_stick_slip_too():
+    case, v_0, _ = stage("up and down", 0.25, over_swing=5.0, spring=100.0)
+    bears = case.friction.mu_s * case.material.mindlin_ratio * 20e-6  # the deflection at which springs slip
+    for size, sticks in ((0.1, True), (0.8, False)):
+        shake = mdr.InPlaneOscillation(3000.0, du_y=size * bears)
+        across = replace(case, oscillation=mdr.ConstantDepth(20e-6), material=mdr.Elastic(3e6, 0.4), shake=shake)
+        assert (mdr.least_velocity(across, v_0) < 0.5 * v_0) == sticks
+
+
 @pytest.mark.filterwarnings("ignore::mdr.PlausibilityWarning")
 def test_there_is_no_end_of_stick_slip_where_all_is_smooth_or_nothing():
     case, v_0, law = stage("up and down", 0.25)
