@@ -310,10 +310,11 @@ def test_a_waveform_that_is_not_the_best_is_seen():
 
 
 def test_a_measured_bar_or_a_contact_that_is_off_is_seen(monkeypatch):
-    assert all(check.held for check in steel_slide._met_checks())
+    assert all(check.held for check in (*steel_slide._met_checks(), *steel_slide._falling_checks()))
     right = steel_slide.measured.found
     monkeypatch.setattr(steel_slide.measured, "found", {at: (1.6 * F, length) for at, (F, length) in right.items()})
     assert sum(not check.held for check in steel_slide._met_checks()) >= 4
+    assert sum(not check.held for check in steel_slide._falling_checks()) >= 4
     monkeypatch.setattr(steel_slide.measured, "vibrated", np.linspace(0.5, 0.55, 6))
     assert not any("fall" in check.name and check.held for check in steel_slide._constant_checks())
 
