@@ -42,7 +42,8 @@ GROUPS = {
     ),
     "Three dimensions": (
         "A half-space, solved with no springs at all, shows what independent springs leave out.",
-        ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip", "vector_springs"),
+        ("judge", "uncoupled", "coupled", "end_of_stick", "coupling_law", "transverse_slip", "vector_springs",
+         "falling_in_space"),
     ),
 }  # fmt: skip
 CLAIMS = tuple(name for _, names in GROUPS.values() for name in names)

@@ -11,6 +11,7 @@ from mdr.march.periodic.settling import Settling
 from validation import (
     coupling_law,
     end_of_stick,
+    falling_in_space,
     judge,
     lost_contact,
     one_curve,
@@ -317,6 +318,15 @@ def test_a_measured_bar_or_a_contact_that_is_off_is_seen(monkeypatch):
     assert sum(not check.held for check in steel_slide._falling_checks()) >= 4
     monkeypatch.setattr(steel_slide.measured, "vibrated", np.linspace(0.5, 0.55, 6))
     assert not any("fall" in check.name and check.held for check in steel_slide._constant_checks())
+
+
+def test_a_half_space_that_let_go_as_springs_do_would_be_seen():
+    sizes, by_springs = (20, 40, 80), 0.036
+    added = {d_c: np.full(3, by_springs) for d_c in falling_in_space.DISTANCES}
+    assert sum(not c.held for c in falling_in_space._size_checks(sizes, added, by_springs)) == 4
+    assert sum(not c.held for c in falling_in_space._distance_checks({(0.5, 1.5): np.ones(6)})) == 2
+    assert sum(not c.held for c in falling_in_space._peak_checks(sizes, np.full(3, 0.19))) == 3
+    assert not any("left" in c.name and c.held for c in falling_in_space._punch_checks(sizes, np.ones(3)))
 
 
 def test_signs_and_sizes_that_are_wrong_in_the_later_paper_would_be_seen(monkeypatch):
