@@ -1,12 +1,13 @@
-"""Friction that falls with slip, on annuli of a half-space of nu = 0, or on springs that know nothing of each other.
+"""Friction that falls with slip, on a half-space of nu = 0, or on springs that know nothing of each other.
 
 A point sticks up to mu_s p. Let go, it slips forward or back at a share of p that falls from mu_s to mu_k on a line
 over the slip distance d_c (slip weakening), or at once where d_c is zero. Once it sticks, it bears mu_s p again.
 
 Pressure and traction leave each other alone, and a traction that depends on the distance from the axis alone moves the
-surface along itself, so (annuli.py). Quasi-static and implicit, of first order in the step. In each step first those
-points slip that must with the coefficient that they have. Where a coefficient falls by that, tractions are found again,
-until none does. Slip of one point only makes others slip more, so that the order does not matter.
+surface along itself, so (annuli.py); square cells, which know no axis, say whether slip keeps to it. Quasi-static and
+implicit, of first order in the step. In each step first those points slip that must with the coefficient that they
+have. Where a coefficient falls by that, tractions are found again, until none does. Slip of one point only makes others
+slip more, so that the order does not matter.
 
 In units of the depth u_z0, of E* and of the greatest radius of contact; tractions over mu_k; displacements along the
 surface, d_c among them, over mu_k kappa u_z0.
@@ -17,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mdr.half_space.influence import HalfSpace, Z
 from mdr.tools.arrays import Array
 from validation.cases import DEPTH, SHAPES
 from validation.half_space.annuli import annuli
@@ -30,7 +32,7 @@ Stick = float | Array  #: mu_s/mu_k, of all points or of each (n,)
 class Points(NamedTuple):
     """What touches, and what bears the forces."""
 
-    gap: Array  #: (n,) before anything touches, over u_z0; it grows
+    gap: Array  #: (n,) before anything touches, over u_z0; the first ones touch first
     weight: Array  #: (n,) of a traction in the force
     moved: Array  #: (n, n) displacement of the first by traction 1 on the second
 
@@ -48,6 +50,17 @@ def half_space(shape: str, alpha: float, n: int) -> Points:
     indenter, rings = SHAPES[shape], annuli(n)
     radius = float(indenter.contact_radius(DEPTH * (1 + alpha)))
     return Points(indenter.profile_3d(radius * rings.r) / DEPTH, rings.area, rings.moved)
+
+
+def square_cells(shape: str, alpha: float, n: int) -> Points:
+    """Those of n x n cells that the greatest contact of a shape touches, or nearly."""
+    indenter, solid = SHAPES[shape], HalfSpace(n, 2.12 / n, 1.0, 1.0)
+    r = solid.radii.ravel()
+    order = np.argsort(r, kind="stable")[: np.count_nonzero(r < 1 + solid.h / 2)]
+    apart = [np.subtract.outer(one, one) + n - 1 for one in np.divmod(order, n)]
+    radius = float(indenter.contact_radius(DEPTH * (1 + alpha)))
+    gap = indenter.profile_3d(radius * r[order]) / DEPTH
+    return Points(gap, np.ones(order.size), solid.coefficients(Z, Z)[apart[0], apart[1]])
 
 
 def springs(shape: str, alpha: float, n: int) -> Points:
@@ -127,12 +140,12 @@ def _coulomb(moved: Array, asked: Array, bound: Array, q: Array, slip: Array) ->
 
 
 def _pressures(points: Points, depths: Array) -> Array:
-    """Pressures (depths, n): zero from the first point on that would be pulled."""
+    """Pressures (depths, n): above zero on as many of the first points as can be."""
     found = np.zeros((depths.size, points.gap.size))
     for p, depth in zip(found, depths, strict=True):
         for m in range(np.count_nonzero(points.gap < depth), 0, -1):
             pressed = np.linalg.solve(points.moved[:m, :m], depth - points.gap[:m])
-            if pressed[-1] > 0:
+            if pressed.min() > 0:
                 p[:m] = pressed
                 break
     return found
