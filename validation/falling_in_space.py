@@ -90,7 +90,7 @@ def claim(effort: str) -> Claim:
             *_size_checks(sizes, added_by, by_springs),
             *_distance_checks(shares),
             *_peak_checks(sizes, broken),
-            *_cell_checks(15 if quick else 21),
+            *_cell_checks(),
             *_punch_checks(sizes, ring),
         ),
         figures=(_figure(sizes, added_by, by_springs, shares),),
@@ -197,7 +197,8 @@ def _peak_checks(sizes: tuple[int, ...], broken: Array) -> Checks:
         yield Check.between(name, peak, STICK - way, STICK, "let go as a whole; the way of a step")
 
 
-def _cell_checks(n: int) -> Checks:
+def _cell_checks() -> Checks:
+    n = 15
     cells, rest = square_cells("paraboloid", 0.0, n), half_space("paraboloid", 0.0, N)
     d_c, why = DISTANCES[-1], "annuli as wide as a cell are off by a twentieth; springs by a fourth and more"
     peak = (breakaway(cells, STICK, d_c, steps=200) - 1) / (breakaway(rest, STICK, d_c, steps=200) - 1)
