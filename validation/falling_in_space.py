@@ -41,7 +41,8 @@ def claim(effort: str) -> Claim:
     Range: Elastic half-space of ν = 0 without coupling, solved on {coarsest} to {finest} annuli over the radius of
     contact; rigid pull at {slow} v_c, Δu_z/u_z0 = {ALPHA:g}, and a slow pull without vibration; μ_s/μ_k {sticks}.
     Friction falls at once, or on a line over a slip distance d_c; a point that sticks bears μ_s p again at once.
-    Without inertia, whatever jumps. Annuli slip alike all around; square cells, which need not, are few.
+    Inertia is left out, also where friction falls by a jump. Annuli slip alike all around; square cells need not, and
+    are few.
 
     Measured: With one coefficient annuli have the friction of cells and of springs, to {one:.0e}. With two they part. A
     zone of slip runs in from the edge of a curved face like a crack. If friction falls at once this takes no energy,
@@ -50,12 +51,12 @@ def claim(effort: str) -> Claim:
     springs, and on annuli {excess[0]}, then {excess[1]} and {excess[2]} with twice and four times as many. The peak of
     a slow pull from rest is {peak_springs} above sliding on springs, and on annuli {peaks[0]}, {peaks[1]} and
     {peaks[2]}. A slip distance gives friction a limit of its own, as soon as annuli are finer than the end of the zone:
-    of what μ_s adds on springs, {weak} is there for d_c = {DISTANCES[2]:g} μ_kκu_z0. The half is there for d_c =
+    of what μ_s adds on springs, {weak} is there for d_c = {DISTANCES[2]:g} μ_k κu_z0. The half is there for d_c =
     {half:.2g} (μ_s − μ_k)κu_z0, about alike for each μ_s/μ_k and velocity; and all, to {off:.0f} %, from {FALLS[4]:g}
-    of it on, where friction falls so slowly that a spring is hardly let go by a jump. A very long slip distance leaves
-    μ_s alone. A flat punch is let go as a whole, and is one spring, but only as long as no point is weaker: if its
-    outermost annulus has no static coefficient, {left} is left of what μ_s adds, however narrow it is. What was not
-    asked: ν > 0, coupling, inertia, and μ_s that takes time to come back.
+    of it on, where friction falls so slowly that a spring is hardly let go by a jump. Over a very long slip distance
+    friction is that of μ_s alone. A flat punch is let go as a whole, and is one spring, but only as long as no point is
+    weaker: if its outermost annulus has no static coefficient, {left} is left of what μ_s adds, however narrow it is.
+    What was not asked: ν > 0, coupling, inertia, and μ_s that takes time to come back.
 
     Verdict: fails when the face is curved and friction falls at once or over a short slip
 
@@ -233,7 +234,7 @@ def _figure(
     share of that on springs over the slip distance: from zero to one.
 
     What μ_s adds to friction of a paraboloid. Left, at {V:g} v_c and μ_s/μ_k = {STICK:g}, on annuli of a half-space for
-    four slip distances d_c, over μ_kκu_z0, and on springs (dashed): where friction falls at once (d_c = 0) it tends to
+    four slip distances d_c, over μ_k κu_z0, and on springs (dashed): where friction falls at once (d_c = 0) it tends to
     nothing. Right, over that on springs: springs stand for the half-space where friction falls over a slip of about
     (μ_s − μ_k)κu_z0.
     """
