@@ -72,8 +72,9 @@ class Curve:
         per = self._hold(picture)
         v, curve, run, band = picture.v_0 * per, picture.curve, picture.run, picture.band
         cof_y = None if curve is None else curve.cof_y
+        jumps = [end * per for end in picture.ends] if picture.state.case.friction.stick > 1 else []
         for source, values in ((self.line, picture.cof), (self.across, cof_y), (self.rigid, picture.rigid)):
-            source.data = line_of(v, values)
+            source.data = line_of(v, values, jumps)
         self.points.data = {"v_0": [], "cof": [], "fill": []}
         if curve is not None:
             fill = np.where(curve.settled, COLOURS[0], "#ffffff").tolist()
@@ -105,8 +106,8 @@ class Curve:
     def _show_limits(self, picture: Picture, per: float) -> None:
         """Friction of full slip, critical velocities, and the axis of friction."""
         full, both = full_cof(resolved(picture.state.case)), picture.state.case.is_shaken
-        back = -picture.v_c_back * per if picture.v_c_back is not None else np.nan
-        places = (full, -full if both else np.nan, picture.v_c * per, back)
+        forward, back = (*picture.ends, np.nan)[:2]
+        places = (full, -full if both else np.nan, forward * per, back * per)
         for mark, at in zip(self.marks, places, strict=True):
             mark.visible, mark.location = bool(np.isfinite(at)), float(at) if np.isfinite(at) else 0.0
         cof_y = None if picture.curve is None else picture.curve.cof_y

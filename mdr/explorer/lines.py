@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from mdr.plots.curves import smooth
 from mdr.tools.arrays import Array
 
 
-def line_of(v: Array, cof: Array | None) -> dict[str, Array]:
-    """A smooth line through points, which rises where they rise; on both sides of rest, where friction may jump."""
+def line_of(v: Array, cof: Array | None, jumps: Iterable[float] = ()) -> dict[str, Array]:
+    """A smooth line through points, which rises where they rise; on both sides of rest, where friction may jump. It is
+    broken at the velocities at which it does.
+    """
     here = np.zeros(v.shape, dtype=bool) if cof is None else np.isfinite(cof)
-    sides = [smooth(v[one], np.asarray(cof)[one]) for one in (here & (v < 0), here & (v >= 0)) if one.any()]
-    x, y = zip(*sides, strict=True) if sides else ((), ())
+    side = np.searchsorted(sorted({0.0, *jumps}), v, side="right")
+    sides = [smooth(v[one], np.asarray(cof)[one]) for k in np.unique(side) if (one := here & (side == k)).any()]
+    x, y = ([*parts] for parts in zip(*sides, strict=True)) if sides else ([], [])
+    if jumps:
+        x, y = ([np.append(part, np.nan) for part in parts] for parts in (x, y))
     return {"v_0": np.concatenate([[], *x]), "cof": np.concatenate([[], *y])}
 
 

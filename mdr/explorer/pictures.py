@@ -58,6 +58,11 @@ class Picture:
         return plausibility(self.state.case)
 
     @property
+    def ends(self) -> list[float]:
+        """The critical velocities [m/s]: of a pull forward, and below 0 of one the other way where it has its own."""
+        return [self.v_c, *([] if self.v_c_back is None else [-self.v_c_back])]
+
+    @property
     def numbers(self) -> list[tuple[str, str, str]]:
         """Name, value and meaning of what one reads off, and of the run a dot each as long as it is computed."""
         run, known = self.run, resolved(self.state.case)

@@ -203,6 +203,15 @@ def test_the_run_lies_on_its_curve_and_the_line_on_the_points(state):
     assert_allclose(line["cof"][drawn], picture.cof, rtol=1e-12)
 
 
+def test_a_line_is_broken_where_friction_jumps():
+    v, cof = np.array([0.2, 0.4, 0.8, 1.2, 1.6]), np.array([0.4, 0.5, 0.6, 0.5, 0.5])
+    line = line_of(v, cof, jumps=[1.0])
+    x, y = line["v_0"], line["cof"]
+    assert not np.any((x > 0.8) & (x < 1.2))
+    assert np.isnan(y[np.flatnonzero(x == 0.8)[-1] + 1])
+    assert np.nanmax(y) == 0.6
+
+
 def test_only_the_latest_request_is_answered():
     begun, go, answered, done = threading.Event(), threading.Event(), [], threading.Event()
 
