@@ -11,7 +11,8 @@ from mdr.case.paths import facts_at
 from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
 from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
-from mdr.friction.find import OF_RUN, searched_path
+from mdr.friction.find import searched_path
+from mdr.friction.inputs import OF_RUN
 from mdr.given.case_file import Said
 from mdr.march.result.run import power_text
 from mdr.tools.notation import value_in

@@ -26,6 +26,7 @@ from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity, velocity_scale
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import allowed, case_of, changed, path_of, value_of
+from mdr.friction.inputs import OF_RUN
 from mdr.given.mean_load import warn_of_mean_loads
 from mdr.given.vary import load_asked, still_held
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE
@@ -39,7 +40,6 @@ from mdr.tools.notation import shown
 from mdr.tools.progress import Ticker
 from mdr.tools.summary import Printed
 
-OF_RUN = "v_0"  #: a number that may be searched for and is none of the case
 LAW = Domain((ALIKE,), instead="slide(case, v_0) at each velocity; find with smooth=True is where stick-slip ends")
 SMOOTH = 0.5  #: of v_0, which a body is above that does not stick and slip, averaged over each period of the vibration
 LOOKS, HALVED = 17, 7  #: places where a scan asks for it, and how often the way between two is halved

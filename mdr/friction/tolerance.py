@@ -1,8 +1,4 @@
-"""tolerance(): what friction and critical velocity become as each input alone is a little smaller or larger.
-
-Inputs are what the user sets: the numbers of the case, the load, frequency and loss tangent in the place of the fields
-that these are turned into, and the pulling velocity.
-"""
+"""tolerance(): what friction and critical velocity become as each input alone is a little smaller or larger."""
 
 from __future__ import annotations
 
@@ -11,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.motion import PeriodicMotion
-from mdr.case.paths import facts_at, fields_set, paths_of
+from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.cof_curve import friction_at
-from mdr.friction.free_parameters import allowed, changed, path_of, value_of
+from mdr.friction.free_parameters import allowed
+from mdr.friction.inputs import OF_RUN, Inputs
 from mdr.given.mean_load import warn_of_mean_loads
-from mdr.given.vary import load_asked, still_held, value_at
+from mdr.given.vary import load_asked, still_held
 from mdr.normal.normal_force import mean_normal_force
 from mdr.normal.resolved import at_rest
 from mdr.plots.figures import Axes
@@ -141,26 +137,23 @@ def tolerance(
     case = as_given(case)
     at_rest(case)  # warns of what is unlikely
     by, v_0 = between("by", by, 0.0, 1.0, "0.1, or 10%"), finite("v_0", v_0)
-    kept = still_held(held or {}, ())
-    if isinstance(fields, str):
-        raise TypeError(f"fields must be a list of paths, got {fields!r}; write [...]")
-    paths = _inputs(case, kept) if fields is None else [one if one == "v_0" else path_of(case, one) for one in fields]
+    of = Inputs(case, v_0, still_held(held or {}, ()))
+    paths = of.asked(fields)
     warnings: list[str] = []
     loads: list[Pair] = []
 
     def at(path: str, value: float) -> Pair:
         """Friction and critical velocity with another value at a path."""
-        others = still_held(kept, [path])
-        one = case if path == "v_0" else changed(case, path, value, others)
-        if (asked := load_asked({**others, path: value}, one)) is not None:
+        one, pull = of.at(path, value), value if path == OF_RUN else v_0
+        if (asked := load_asked({**of.others(path), path: value}, one)) is not None:
             loads.append((asked, mean_normal_force(one)))
-        cof, _, why = friction_at(one, value if path == "v_0" else v_0)
+        cof, _, why = friction_at(one, pull)
         if why:
             warnings.append(f"{path} = {shown(value, facts_at(path).unit)}: the run did not settle")
         return cof, critical_velocity(one)
 
-    base_cof, base_v_c = at("v_0", v_0)
-    inputs = {path: _ends(case, path, v_0, by, kept) for path in paths}
+    base_cof, base_v_c = at(OF_RUN, v_0)
+    inputs = {path: _ends(of, path, by) for path in paths}
     points = {path: [at(path, end) for end in inputs[path]] for path in progress(paths, "tolerance", "inputs")}
     warn_of_mean_loads(loads, "at {n} of {of} points ")
     spread = {path: abs(less[0] - more[0]) for path, (less, more) in points.items()}
@@ -170,19 +163,11 @@ def tolerance(
     return Tolerance(by, v_0, base_cof, base_v_c, values, cof, v_c, tuple(warnings))
 
 
-def _ends(case: SlidingContact, path: str, v_0: float, by: float, held: Mapping[str, Any]) -> Pair:
+def _ends(of: Inputs, path: str, by: float) -> Pair:
     """The smaller and the larger value of an input, as far as the case can have them."""
-    if path == "v_0":
-        return v_0 * (1 - by), v_0 * (1 + by)
-    start, others = value_of(case, path, held), still_held(held, [path])
-    less, more = (allowed(case, path, start, start * (1 + share), others) for share in (-by, by))
+    start = of.value(path)
+    less, more = start * (1 - by), start * (1 + by)
+    if path == OF_RUN:
+        return less, more
+    less, more = (allowed(of.case, path, start, end, of.others(path)) for end in (less, more))
     return less, more
-
-
-def _inputs(case: SlidingContact, held: Mapping[str, Any]) -> list[str]:
-    """The numbers of a case that are not zero, by what they were set with."""
-    paths = [path for path in paths_of(case) if isinstance(value := value_at(case, path), float) and value]
-    alike = {value_at(case, path) for path in fields_set("frequency") if path in paths}
-    for setting in (*(("frequency",) if len(alike) == 1 else ()), *held):
-        paths = list(dict.fromkeys(setting if path in fields_set(setting) else path for path in paths))
-    return [*paths, *(["alpha"] if isinstance(case.oscillation, PeriodicMotion) else []), "v_0"]
