@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from mdr.friction.verdict import verdict
     from mdr.friction.fit import fit
     from mdr.friction.find import find
+    from mdr.friction.sensitivity import sensitivity
     from mdr.friction.tolerance import tolerance
     from mdr.studies import Quantity, Study, read_study
     from mdr.studies.many import ManyCofs, slide_many
@@ -95,6 +96,7 @@ _LATER = {
     "mdr.friction.verdict": ("verdict",),
     "mdr.friction.fit": ("fit",),
     "mdr.friction.find": ("find",),
+    "mdr.friction.sensitivity": ("sensitivity",),
     "mdr.friction.tolerance": ("tolerance",),
     "mdr.studies": ("studies", "Quantity", "Study", "read_study"),
     "mdr.studies.sweep": ("sweep",),
@@ -108,9 +110,9 @@ __all__ = [
     "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
     "measure_critical_velocity", "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof",
     "read_case", "read_creep", "read_force_curve", "read_friction_data", "read_moduli", "read_record",
-    "read_relaxation", "read_study", "register", "resolved", "rig", "slide", "slide_many", "slide_record", "static_cof",
-    "static_depth", "static_load", "surface_fields", "sweep", "tangential_loop", "tolerance", "verdict", "waveforms",
-    "write_case",
+    "read_relaxation", "read_study", "register", "resolved", "rig", "sensitivity", "slide", "slide_many",
+    "slide_record", "static_cof", "static_depth", "static_load", "surface_fields", "sweep", "tangential_loop",
+    "tolerance", "verdict", "waveforms", "write_case",
 ]  # fmt: skip
 __all__ += indenters.__all__  # shapes, materials, laws of friction and motions are listed where they stand
 __all__ += materials.__all__

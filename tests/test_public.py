@@ -89,6 +89,7 @@ SIGNATURES = {
     "find": "case, path, *, v_0=None, cof=None, share=None, v_c=None, smooth=False, within=None, held=None",
     "least_velocity": "case, v_0",
     "tolerance": "case, v_0, by=0.1, fields=None, *, held=None",
+    "sensitivity": "case, v_0=None, fields=None, *, held=None, accuracy=1e-05",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",
     "read_study": "path",
@@ -117,6 +118,7 @@ RECORDS = {
     "RandomCof": "v_0 cof standard_error cof_error realisations",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "friction.find.Found": "path values why cases",
+    "friction.sensitivity.Sensitivity": "v_0 inputs cof d_cof v_c d_v_c static_cof d_static_cof error why",
     "friction.tolerance.Tolerance": "by v_0 base_cof base_v_c inputs cof v_c warnings",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",

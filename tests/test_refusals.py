@@ -251,6 +251,11 @@ CALLS = [
         (5, "0.01 for 1 %"), *((one, "must be a real number") for one in ("1%", None, True))]}),
     (mdr.SpringArray.of, {"case": CASE}, {}),
     (mdr.tolerance, {"case": CASE, "v_0": 1e-4}, {"v_0": ONE, "by": [(10, "between 0 and 1, got 10.0 (0.1, or 10%)")]}),
+    (mdr.sensitivity, {"case": CASE, "v_0": 1e-4}, {
+        "v_0": [*((one, "v_0") for one in (NAN, INF, "1e-4", True, [1e-4], -INF)), (-1e-4, "the same both ways")],
+        "accuracy": [(NAN, "finite"), (1e-9, "between 1e-08 and 0.001"), ("fine", "must be")],
+        "fields": [("mu_0", "must be a list"), (3, "must be a list")],
+        "held": [({"u_z0": 1}, "held takes load"), (3, "must be a dict")]}),
     (mdr.partial_slip, {**PRESSED, "mu_0": 0.5, "u_z0": 1e-6, "u_x": 1e-7}, {
         "u_x": [*ARRAY, (-1e-7, "must not be negative")], "u_z0": ABOVE_ZERO}),
     (mdr.indent, {**PRESSED, "t": [0, 1], "u_z": [0, 1e-6]}, {
@@ -429,6 +434,16 @@ SAYINGS = {
     'find(CASE, "du_z", v_c=1e-3, within=(2, 1))': "within must be (low, high) with low < high, got 2 and 1",
     'find(replace(CASE, pull=replace(SLED, c_x=0)), "c_x", v_c=1e-3)': "pull.c_x is zero in this case: give the range",
     'tolerance(CASE, 1e-4, fields=["taw"])': "did you mean tau?",
+    'sensitivity(CASE, fields=["taw"])': "did you mean tau?",
+    "sensitivity(CASE, fields=[1])": "parameters must be names, got 1",
+    'sensitivity(CASE, fields=["T", NAN])': "parameters must be names, got nan",
+    'sensitivity(CASE, held={"load": -1.0})': "load must be positive, got -1.0",
+    'sensitivity(CASE, held={"load": NAN})': "load must be a finite number",
+    'sensitivity(CASE, held={"load": 1.0, "hold": "both"})': "hold must be",
+    'sensitivity(CASE, held={"hold": "depth"})': "hold says what stays of a load",
+    'sensitivity("CASE")': "SlidingContact",
+    'sensitivity(CASE, fields=["v_0"])': "v_0 is no parameter of this case",
+    'sensitivity(CASE, 1e-4).elasticity("load")': "of must be one of cof, v_c, static_cof, got 'load'",
     "closed_forms.rigid_pull.average_friction(CASE, 1e-3)": "rigid pull",
     "closed_forms.rigid_pull.average_friction(replace(RIGID, material=SOLID), 1e-4)": "Kelvin material, got",
     # spectra, waveforms and their laws

@@ -176,7 +176,7 @@ def cof_curve(
     array([0.319, 0.364, 0.398, 0.4  ])
     """
     case = resolved(case)
-    v_0 = _velocities(case, v_0)
+    v_0 = velocities(case, v_0)
     asked = _Asked(case, v_0, method, accuracy, n_springs=n_springs, steps_per_period=steps_per_period)
     columns, back = asked.columns(asked.and_rest), None
     at_rest = columns.cof[asked.and_rest == 0]
@@ -202,11 +202,11 @@ def cof_curve(
 def cof_at(case: SlidingContact, v_0: ArrayLike, **knobs: Any) -> Columns:
     """Friction at velocities as a curve has it, without its limit at rest and its scale; knobs: of `cof_curve`."""
     case = resolved(case)
-    asked = _Asked(case, _velocities(case, v_0), **knobs)
+    asked = _Asked(case, velocities(case, v_0), **knobs)
     return asked.columns(asked.and_rest if asked.rest_judges else asked.counted).first(asked.v_0.size)
 
 
-def _velocities(case: SlidingContact, v_0: ArrayLike) -> Array:
+def velocities(case: SlidingContact, v_0: ArrayLike) -> Array:
     """Velocities in a row, negative only where something shakes in the plane."""
     v_0 = row("v_0", v_0, "m/s", "velocities")
     if case.shake is None and np.any(v_0 < 0):
@@ -283,6 +283,13 @@ def friction_at(case: SlidingContact, v_0: float, accuracy: float = BUDGET) -> t
     asked = _Asked(resolved(case), np.array([v_0]), accuracy=accuracy, closely=False)
     cof, error, settled, _, why, _ = (column[0] for column in asked.columns(asked.counted))
     return float(cof), float(error), "" if settled else f"the run did not settle{f': {why}' if why else ''}"
+
+
+def counted(case: SlidingContact, v_0: float) -> tuple[float, bool]:
+    """The velocity as it is computed, and whether by a run: neither in closed form nor as the limit at rest, zero."""
+    is_closed = (case := resolved(case)) in CLOSED_FORM
+    v_0 = float(_not_too_slow(case, velocities(case, v_0), is_closed)[0])
+    return v_0, not is_closed and v_0 != 0
 
 
 def _not_too_slow(case: SlidingContact, v_0: Array, is_closed: bool) -> Array:

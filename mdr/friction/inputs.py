@@ -43,7 +43,7 @@ class Inputs(NamedTuple):
         """The paths of those that are asked for, None for all. ValueError for what is no number of the case."""
         if fields is None:
             return self.all
-        if isinstance(fields, str):
+        if isinstance(fields, str) or not isinstance(fields, Iterable):
             raise TypeError(f"fields must be a list of paths, got {fields!r}; write [...]")
         return [one if one in self._of_run else path_of(self.case, one) for one in fields]
 

@@ -39,6 +39,8 @@ MOVING = ("oscillation", "shake")
 def still_held(held: Mapping[str, Any], paths: Iterable[str]) -> dict[str, Any]:
     """What is held besides, where none of these paths sets it too. ValueError for what cannot be held."""
     paths = list(paths)
+    if not isinstance(held, Mapping):
+        raise TypeError(f"held must be a dict such as {{'load': 5.0}}, got {held!r}")
     if unknown := [path for path in held if path not in (*RIG, HOLD)]:
         raise ValueError(f"held takes {', '.join((*RIG, HOLD))}, got {unknown[0]!r}")
     if HOLD in held and "load" not in (*held, *paths):
