@@ -1,4 +1,4 @@
-"""`mdr find` and `mdr tolerance`: which value brings about a friction, and how much each input matters."""
+"""`mdr find`, `tolerance` and `sensitivity`: which value brings about a friction, and how much each input matters."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import zip_longest
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.commands.arguments import OF_MU_0, add_velocity, plain_number, quantity, velocity
+from mdr.commands.arguments import OF_MU_0, add_accuracy, add_velocity, plain_number, quantity, velocity
 from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.find import searched_path
@@ -77,8 +77,7 @@ def add_options_of_tolerance(command: argparse.ArgumentParser) -> None:
     add_velocity(command)
     share = plain_number("-", "a share, such as 10% or 0.1")
     command.add_argument("--by", metavar="share", type=share, default=0.1, help="less and more by this (default: 10%%)")
-    named = "inputs, such as mu_0 load oscillation.du_z (default: all numbers of the case, and v_0)"
-    command.add_argument("--fields", metavar="path", nargs="+", help=named)
+    _add_fields(command)
     add_output(command, "tolerance.csv", "tolerance.png", "tolerance.svg")
 
 
@@ -91,3 +90,27 @@ def tolerance(args: argparse.Namespace, asked: Said) -> int:
     answer(args, values, str(found), asked.case)
     write_found(args, found.plot, found.table(), str(found))
     return Exit.FAILED if found.warnings else Exit.DONE
+
+
+def add_options_of_sensitivity(command: argparse.ArgumentParser) -> None:
+    """The velocity, the inputs, and the accuracy of the runs."""
+    pulled = "pulling velocity at which friction is asked for: 10mm/s, 0.5v_c (default: closed forms alone)"
+    command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
+    command.usage = "%(prog)s case.toml [--v-0 velocity] [options]"
+    _add_fields(command)
+    add_accuracy(command, "bound on the error of the COF, whose springs and steps are taken, over full friction")
+
+
+def sensitivity(args: argparse.Namespace, asked: Said) -> int:
+    """Print derivatives in per cent per per cent; in JSON in SI."""
+    with refusals():
+        v_0 = args.v_0 and args.v_0.on(asked.case)
+        found = mdr.sensitivity(asked.case, v_0, args.fields, held=asked.held, accuracy=args.accuracy)
+    names = ("cof", "d_cof", "v_c", "d_v_c", "static_cof", "d_static_cof")
+    answer(args, picked(found, "v_0", "inputs", *names, "error", "why"), str(found), asked.case)
+    return Exit.DONE
+
+
+def _add_fields(command: argparse.ArgumentParser) -> None:
+    named = "inputs, such as mu_0 load oscillation.du_z (default: all numbers of the case, and v_0)"
+    command.add_argument("--fields", metavar="path", nargs="+", help=named)

@@ -1,4 +1,4 @@
-"""`mdr find` and `mdr tolerance`: the answers of the functions, with units, as text, JSON and files."""
+"""`mdr find`, `tolerance` and `sensitivity`: the answers of the functions, with units, as text, JSON and files."""
 
 import pytest
 from answers import json_of, words_of
@@ -58,3 +58,16 @@ def test_tolerance(capsys, sled, tmp_path):
     assert (folder / "tolerance.csv").read_text(encoding="utf-8").endswith(found.table())
     assert {path.name for path in folder.iterdir()} == {"tolerance.csv", "tolerance.png", "tolerance.svg"}
     assert "load" in words_of(capsys, ["tolerance", sled, "--v-0", "10mm/s", "--fields", "load"]).out
+
+
+def test_sensitivity(capsys, sled):
+    command = ["sensitivity", sled, "--v-0", "10mm/s", "--fields", "load", "v_0"]
+    answer, said = json_of(capsys, [*command, "--json"]), read_said(sled)
+    found = mdr.sensitivity(said.case, 0.01, ["load", "v_0"], held=said.held)
+    assert answer["d_cof"] == found.d_cof
+    assert answer["error"]["cof"] == found.error["cof"]
+    assert (answer["v_c"], answer["d_v_c"]) == (found.v_c, found.d_v_c)
+    assert words_of(capsys, command).out == f"{found}\n"
+    alone = json_of(capsys, ["sensitivity", sled, "--json"])
+    assert (alone["v_0"], alone["cof"], alone["d_cof"]) == (None, None, {})
+    assert_allclose(alone["d_v_c"]["frequency"], found.v_c / 20e3)
