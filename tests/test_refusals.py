@@ -118,7 +118,8 @@ NOT_NEGATIVE = {"Coulomb.mu_0", "ShearStrength.mu_0", "ShearStrength.tau_0", "Ke
                 "SpringPull.c_x", "SampledProfile.smoothing", "FromForce.smoothing"}  # fmt: skip
 SIGNED = {"NormalOscillation.u_z0", "PeriodicMotion.u_z0", "InPlaneOscillation.phi_x", "InPlaneOscillation.phi_y"}
 BOUNDED = {"theta": "_slope_angle", "nu": "poisson_ratio", "nu_1": "poisson_ratio", "nu_2": "poisson_ratio"}
-OWN = {"Ellipsoid.k": "_invertible", "SpringPull.k_y": "positive_or_none", "SpringPull.c_y": "positive_or_none"}
+OWN = {"Ellipsoid.k": "_invertible", "SpringPull.k_y": "positive_or_none", "SpringPull.c_y": "positive_or_none",
+       "ContactElement.mu_s": "positive_or_none"}  # fmt: skip
 
 
 def sound(record):

@@ -29,7 +29,7 @@ from mdr.normal.springs import MIN_SPRINGS
 from mdr.spring.law import law_of
 from mdr.spring.limit import falling
 from mdr.tools.arrays import SAME, Array
-from mdr.tools.checks import count, finite_array, instance, not_negative, positive, real_array
+from mdr.tools.checks import count, finite_array, instance, not_negative, positive, positive_or_none, real_array
 from mdr.tools.compiler import tell_if_missing
 from mdr.tools.fields import Record, check_fields, facts
 
@@ -44,10 +44,6 @@ FAULTS = {
 
 def _springs(name: str, value: Any, note: str = "") -> int:
     return count(name, value, MIN_SPRINGS)
-
-
-def _or_none(name: str, value: Any, note: str = "") -> float | None:
-    return None if value is None else positive(name, value, note)
 
 
 @dataclass(frozen=True)
@@ -78,7 +74,7 @@ class ContactElement(Record):
         kw_only=True, default=256, metadata=facts("-", "springs at x > 0, each for a pair; at least 16", _springs)
     )
     mu_s: float | None = field(
-        kw_only=True, default=None, metadata=facts("-", "static coefficient; none is mu_0", _or_none)
+        kw_only=True, default=None, metadata=facts("-", "static coefficient; none is mu_0", positive_or_none)
     )
 
     def __post_init__(self) -> None:
