@@ -26,7 +26,7 @@ def world(monkeypatch):
             return SimpleNamespace(
                 v_0=v_0, full_cof=case.mu_0, cof=case.mu_0 - (0 if free else 0.1), cof_error=1e-6,
                 stick_share=0.0 if free else 0.5, least_slip=v_0 - end if free else 0.0,
-                settled=settled(v_0 / UNIT, start), to_begin_from=None,
+                settled=settled(v_0 / UNIT, start), kind="periodic", to_begin_from=None,
             )  # fmt: skip
 
         def slide(case, v_0, *, start, n_springs, steps_per_period):

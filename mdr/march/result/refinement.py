@@ -360,8 +360,7 @@ def _apart(main: MarchEnd, companion: MarchEnd) -> float:
     apart = float(np.hypot(main.cof - companion.cof, main.settling.across - companion.settling.across))
     if apart <= FULL:
         return 0.0
-    known = main.settling.solved or main.settling.kind == "averaged"
-    missing = companion.settling.spread if known else 0.0
-    if main.settling.solved and not companion.settling.settled:
+    missing = companion.settling.spread if main.settling.solved else 0.0
+    if (main.settling.solved or main.settling.kind == "averaged") and not companion.settling.settled:
         missing = max(missing, BUDGET)
     return missing + apart
