@@ -179,7 +179,7 @@ def let_go(v: float, alpha: float, stick: float) -> LetGo:
     case = mdr.SlidingContact(PUNCH, mdr.Elastic(E, 0.4), oscillation=motion, friction=friction)
     run = mdr.slide(case, v * case.unit_velocity, n_springs=32, steps_per_period=256)
     law = laws.falling_friction(v, alpha, stick).periods
-    return LetGo(run.periods, law if law in COMES_BACK else None)
+    return LetGo(run.periods, law if law <= COMES_BACK else None)
 
 
 def claim(effort: str) -> Claim:
