@@ -60,9 +60,8 @@ def claim(effort: str) -> Claim:
 
     Verdict: fails when the face is curved and friction falls at once or over a short slip
 
-    Sentence: On one continuous curved face where friction falls at once, μ_s does nothing: finer cells tend to the
-    friction of μ_k. Springs that know μ_s stand for separate contacts, or for friction that falls over a slip of about
-    (μ_s − μ_k)κu_z0.
+    Sentence: On one continuous curved face where friction falls at once, μ_s does nothing. Springs that know it stand
+    for separate contacts, or for friction that falls over a slip of about (μ_s − μ_k)κu_z0.
     """
     quick = effort == "quick"
     sizes = (20, 40, 80) if quick else (20, 40, 80, 160)

@@ -56,9 +56,8 @@ def claim(effort: str) -> Claim:
 
     Verdict: fails when μ_0 is constant, and for smooth faces unless the value at rest is a static coefficient
 
-    Sentence: Fixed by the bar at rest, springs meet five measured forces of vibrated steel with the μ_0 of each
-    velocity: under a rough face to {off_rough:.2f} N, or under a flat punch to {falls_punch:.2f} N if the value at rest
-    is μ_s. No constant μ_0 does.
+    Sentence: Fixed at rest, springs with the μ_0 of each velocity meet five measured forces: under a rough face to
+    {off_rough:.2f} N, or a flat punch to {falls_punch:.2f} N with μ_s at rest. No constant μ_0 does.
     """
     off = {face: _off(face, "as slow", "at rest")[1:] for face in measured.faces}
     back = {face: _off(face, "as slow", "0.05 mm/s") for face in measured.faces}
