@@ -280,11 +280,8 @@ class StaticKinetic(Friction):
 
 
 NO_LAW = "tau_0 beside mu_s and mu_k is no law: give mdr.ShearStrength(mu_0, tau_0), or mdr.StaticKinetic(mu_s, mu_k)"
-UNNAMED = (
-    StaticKinetic,
-    ShearStrength,
-    Coulomb,
-)  #: laws that a file need not name: the first of them whose keys are there, beside those of Coulomb
+#: laws that a file need not name: the first of which it has a key that Coulomb has not
+UNNAMED = (StaticKinetic, ShearStrength, Coulomb)
 #: numbers of friction that stand without a law
 SHORTHAND = tuple(dict.fromkeys(name for law in reversed(UNNAMED) for name in fields_of(law)))
 

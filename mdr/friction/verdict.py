@@ -294,8 +294,9 @@ def _overshoot(case: SlidingContact) -> str:
     v = np.append(np.arange(1, SAMPLES) / SAMPLES, 1 - SAME)
     shares = [falling_friction(one, case.alpha, case.friction.stick).share for one in v]
     most = int(np.argmax(shares))
-    where = "there" if most == v.size - 1 else f"{shares[most] - 1:.3g} at {v[most]:.2g} v_c"
-    return f"{said}: by {shares[-1] - 1:.3g} of it, and it falls by a jump there; the most is {where}"
+    last = most == v.size - 1
+    greatest = "the most at any velocity" if last else f"and by {shares[most] - 1:.3g} at {v[most]:.2g} v_c, the most"
+    return f"{said}: by {shares[-1] - 1:.3g} of it, {greatest}; at v_c it falls by a jump"
 
 
 def _at_the_edge(case: SlidingContact) -> str:
