@@ -476,6 +476,8 @@ SAYINGS = {
     "laws.touch_depth(1.0, 0.0)": "phase",
     "laws.edge_band(1.0)": "v_hat",
     "laws.rise_of_lost_punch(2.0, 1.0)": "depth",
+    "laws.stick_impedance(1.0, 1.0, 1.0)": "stick must lie between 0 and 1, got 1.0 (share of the period in stick)",
+    "laws.stick_impedance(0.5, 1.0, 1.0, 1.0)": "slow must lie between -1 and 1, got 1.0",
     "laws.onset(CASE)": "flat punch, whose stiffness is constant, got indenter = Paraboloid",
     "laws.blow(LOST)": "got T = 0: ask full_slip",
     "laws.blow(replace(LOST, material=KelvinVoigt(3e6, 0.5, 0.03), pull=SpringPull(1e4, 0.1, 1e6)))": "damping",

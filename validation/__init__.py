@@ -33,8 +33,8 @@ GROUPS = {
     ),
     "Beyond the paper": (
         "The whole curve, waveforms and random vibration, lost contact, resonances, oscillation along and across.",
-        ("one_curve", "waveforms", "random_vibration", "lost_contact", "resonances", "shaken_velocity", "shaken_curves",
-         "drive", "shaken_across", "shear_strength", "two_coefficients", "stick_slip", "sequel"),
+        ("one_curve", "damping", "waveforms", "random_vibration", "lost_contact", "resonances", "shaken_velocity",
+         "shaken_curves", "drive", "shaken_across", "shear_strength", "two_coefficients", "stick_slip", "sequel"),
     ),
     "Measured forces": (
         "The springs beside forces that were measured on a real contact.",

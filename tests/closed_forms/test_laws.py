@@ -75,6 +75,25 @@ def test_the_edge_band_is_that_of_the_least_extension_of_the_past():
     assert laws.edge_band(v) == pytest.approx(weight @ lag[:-1] / lag[-1] - 1, abs=v * 2 * np.pi / n)
 
 
+@pytest.mark.parametrize("slow", [0.0, 0.02, 0.7])
+@pytest.mark.parametrize("tau", [0.0, 0.5, 4.0])
+def test_the_impedance_of_stick_is_that_of_one_spring_followed_in_small_steps(slow, tau):
+    """e' of a small motion is its velocity in stick, and -e/tau else: small steps, over so many periods of the slow one
+    that its phase in the vibration does not matter."""
+    stick, n, turns = 0.6, 2000, 50
+    t = 2 * np.pi * np.arange(turns * n) / n
+    v, e, force = np.exp(1j * slow * t), 0.0, []
+    for i, one in enumerate(v):
+        sticks, dt = i % n < stick * n, t[1]
+        e = e + one * dt if sticks else e * (np.exp(-dt / tau) if tau else 0.0)
+        force.append(e + tau * one if sticks else 0.0)
+    last = slice(
+        turns * n // 5, None
+    )  # the start is forgotten, 40 periods are whole ones of the slow motion or its beat
+    found = np.mean((force / v)[last])
+    assert laws.stick_impedance(stick, 1.0, 1.0, slow, tau) == pytest.approx(found, rel=4 / n)
+
+
 @pytest.mark.parametrize("shape", [mdr.Cone(theta=0.05), mdr.Paraboloid(R=5e-3), mdr.PowerLaw(n=4, c=1e8)])
 @pytest.mark.parametrize("T", [0.0, 1.0])
 def test_the_error_of_eq_15_at_small_amplitude_knows_one_number_of_the_shape(shape, T):

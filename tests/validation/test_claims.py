@@ -10,6 +10,7 @@ from mdr import laws
 from mdr.march.periodic.settling import Settling
 from validation import (
     coupling_law,
+    damping,
     end_of_stick,
     falling_in_space,
     judge,
@@ -318,6 +319,18 @@ def test_a_measured_bar_or_a_contact_that_is_off_is_seen(monkeypatch):
     assert sum(not check.held for check in steel_slide._falling_checks()) >= 4
     monkeypatch.setattr(steel_slide.measured, "vibrated", np.linspace(0.5, 0.55, 6))
     assert not any("fall" in check.name and check.held for check in steel_slide._constant_checks())
+
+
+def test_a_damper_that_is_off_would_be_seen(monkeypatch):
+    """With the slope of friction, the times of stick, or the law that ties them, a little wrong."""
+    case = damping.CASES["flat punch, α = 0.5"]
+    sway, stick = damping.sway(*damping.SWAYED[0], 1, 4), damping.stick(case, 0.4)
+    assert all(c.held for c in damping._impedance_checks([sway]))
+    assert not any(c.held for c in damping._impedance_checks([sway._replace(by_run=1.002 * sway.by_run)]))
+    found = list(damping._stick_checks([("", case, 0.4)], [stick._replace(by_stick=1.01 * stick.by_stick)], {}, stick))
+    assert [c.held for c in found[:2]] == [False, True]
+    scale(monkeypatch, laws, "stick_impedance", 1.001)
+    assert not any(c.held for c in damping._lost_checks())
 
 
 def test_a_half_space_that_let_go_as_springs_do_would_be_seen():

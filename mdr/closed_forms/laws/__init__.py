@@ -14,6 +14,11 @@ Rigid pull, contact lost
     -pi/2, where the depth grows fastest. The centre touches longest. Its surface, once left, relaxes like
     exp(-theta/T), so it is back at the phase phi_c given by `touch_depth`, and v_c = v_1 sin|phi_c| if that is late.
 
+Rigid pull, springs that stick for d in each period T
+    What another velocity adds to the way of a spring in stick, slip forgets; the instants at which a stick begins and
+    ends are those at which the velocity of slip is zero and the force is continuous, so that they add nothing. The
+    slope of the mean force is that of k_x (t - t_1) over d, k_x d²/2T; of a slow motion see `stick_impedance`.
+
 Body, flat punch that has just been lost
     With alpha sqrt(1 + T²) = 1 + eps contact is lost around the phase pi - arctan T, where the punch would press by
     k_zc u_z0 (x² - a²)/2, a² = 2 eps, x the phase from there. Elastic: a pull lasting from -a to a is missing, an
@@ -72,6 +77,7 @@ from mdr.closed_forms.laws.rigid_pull import (
     late_return,
     rise_of_lost_punch,
     slow_limit,
+    stick_impedance,
     touch_depth,
 )
 from mdr.closed_forms.laws.shaken import EllipticDrive, elliptic_drive, held_under_shake, lost_under_shake, rigid_shake
@@ -85,6 +91,7 @@ __all__ = [
     "held_across", "held_under_shake", "late_return", "least_over_depth", "load_error", "lock_in", "lost_across",
     "lost_at_the_edge", "lost_under_shake", "onset", "radial_rub", "random_end", "random_friction", "random_loss",
     "resonance_residue", "rigid_across", "rigid_shake", "rise_of_lost_punch", "slow_limit", "slow_random_loss",
-    "steepest_waveform", "steered_across", "stick_slip", "stick_slip_end", "stiffened_by_coupling",
-    "stiffness_exponent", "touch_depth", "velocity_of_share", "waveform_critical", "waveform_loss",
+    "steepest_waveform", "steered_across", "stick_impedance", "stick_slip", "stick_slip_end",
+    "stiffened_by_coupling", "stiffness_exponent", "touch_depth", "velocity_of_share", "waveform_critical",
+    "waveform_loss",
 ]  # fmt: skip

@@ -7,6 +7,9 @@ import numpy as np
 from mdr.closed_forms.paper import deficit, lag_of_stick
 from mdr.tools.checks import between, finite, not_negative, positive
 
+#: nodes in a time of stick; with them e^(ix), x from 0 to 2 pi, is exact
+_NODES = 24
+
 # --- when the centre touches again ---
 
 
@@ -223,5 +226,57 @@ def rise_of_lost_punch(depth: float, T: float) -> float:
     release = np.arccos(-depth / np.hypot(1, T)) - np.arctan(T)  # where its force vanishes
     left = depth + np.cos(release)
     touch = brentq(lambda p: depth + np.cos(p) - left * np.exp(-(p - release) / T), release + 0.5, 2 * np.pi)
-    D = float(release + 2 * np.pi - touch)
-    return float((D**2 / 2 + D * (T + D / np.expm1((2 * np.pi - D) / T))) / (2 * np.pi))
+    return stick_impedance(float((release - touch) / (2 * np.pi) + 1), 1.0, 1.0, tau=T).real
+
+
+def stick_impedance(stick: float, k_x: float, omega: float, slow: float = 0.0, tau: float = 0.0) -> complex:
+    """Mechanical impedance [N s/m] that a vibrated contact has for a small motion besides its pull.
+
+    Springs that stick for d = stick 2 pi/omega once in each period follow the motion meanwhile, and forget it in slip
+    and in flight, at once or in the time tau. Their mean force over velocity is, for the slowest motion::
+
+        (k_x omega/2 pi) [d²/2 + tau d + d²/(exp((2 pi/omega - d)/tau) - 1)]
+
+    This is the slope of friction over velocity, F_N dCOF/dv_0, and acts as a damper. For an elastic contact it does so
+    up to a share of (slow d)²/12. A faster motion meets the real part as a damper, and -slow times the imaginary one as
+    a spring. Rigid pull, any shape and amplitude, elastic or Kelvin, Coulomb's friction or a shear strength; first
+    order in the small motion [damping].
+
+    Parameters
+    ----------
+    stick : float
+        Share of the period in stick [-], from 0 to below 1.
+    k_x : float
+        Tangential stiffness of the springs [N/m].
+    omega : float
+        Angular frequency of the vibration [rad/s].
+    slow : float
+        That of the small motion [rad/s], below omega, and not omega/2, at which its phase matters.
+    tau : float
+        Relaxation time of a Kelvin material [s], 0 for an elastic one.
+
+    Returns
+    -------
+    complex
+        Force over velocity [N s/m], both times exp(i slow t).
+
+    Raises
+    ------
+    ValueError
+        For what is out of these ranges.
+
+    Examples
+    --------
+    >>> round(mdr.laws.stick_impedance(0.5, 1e7, 2 * np.pi * 1000).real)  # k_x stick² pi/omega
+    1250
+    """
+    stick = between("stick", stick, 0, 1, "share of the period in stick")
+    k_x, omega, tau = positive("k_x", k_x), positive("omega", omega), not_negative("tau", tau)
+    slow = between("slow", slow, -omega, omega, "angular frequency of a slow motion")
+    period, d = 2 * np.pi / omega, stick * 2 * np.pi / omega
+    node, weight = np.polynomial.legendre.leggauss(_NODES)
+    share, weight = (node + 1) / 2, weight / 2
+    turn = np.exp(-1j * slow * d * share)
+    kept = np.exp(-(period - d) / tau) if tau else 0.0  # of what a stick has added, when the next begins
+    added = kept * abs(weight @ turn) ** 2 / (np.exp(1j * slow * period) - kept)
+    return complex(k_x * stick * (d * (weight @ ((1 - share) * turn) + added) + tau))
