@@ -199,7 +199,7 @@ def sway(shape: str, alpha: float, T: float, v: float, p: int, r: int) -> Sway:
     v_0, slow, tau = v * eq_1(case), OMEGA * p / r, T / OMEGA
     du_x = SWAY * v_0 / slow
     modulated = replace(case, shake=mdr.InPlaneOscillation(OMEGA * p / r, du_x, 0.0, 0.0, 0.0, "tool"))
-    run = mdr.slide(modulated, v_0, record=1, steps_per_period=512 * r)
+    run = mdr.slide(modulated, v_0, record=1, steps_per_period=N * r)
     force = 2 * np.mean(run.F_x * np.exp(-1j * slow * run.t))
     c = slope(case, v)
 
