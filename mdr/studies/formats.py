@@ -1,8 +1,8 @@
 """The file of a study in NetCDF, which `unpack` reads back.
 
 In it every quantity stands over labelled axes, with units; status as flags; reasons as a table. Names with "/",
-which it forbids, are rewritten (v_0_over_v_c) and keep their path as an attribute. Values that are no numbers are
-texts. The bytes follow from the study alone.
+which it forbids, are rewritten (v_0_over_v_c, d_cof_over_d_mu_0) and stay as the attribute `path`. Values that are no
+numbers are texts. The bytes follow from the study alone.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def packed(study: Study, history: str = "") -> bytes:
     file = netcdf_file(buffer, "w", version=2)
     _tell(file, title=_TITLE, identity=study.identity, mdr_version=study.version, case=study.case, history=history)
     _tell(file, selected=json.dumps(study.selected) if study.selected else "")
-    dims = tuple(axis.path.replace("/", "_over_") for axis in study.grid)
+    dims = tuple(_name(axis.path) for axis in study.grid)
     for name, axis in zip(dims, study.grid, strict=True):
         told = {"units": _ONE.get(axis.unit, axis.unit), "long_name": axis.meaning, "path": axis.path}
         if axis.is_numeric:
@@ -38,7 +38,9 @@ def packed(study: Study, history: str = "") -> bytes:
         else:
             _put_texts(file, name, axis.labels, **told)
     for column, values in zip(study.columns, study.values, strict=True):
-        _put(file, column.name, "d", dims, values, units=_ONE.get(column.unit, column.unit), long_name=column.meaning)
+        told = {"units": _ONE.get(column.unit, column.unit), "long_name": column.meaning}
+        name = _name(column.name)
+        _put(file, name, "d", dims, values, **told, path="" if name == column.name else column.name)
     flags = np.array([int(status) for status in Status], dtype=np.int8)
     ended = "how the computation of the point ended"
     _put(file, "status", "b", dims, study.status, long_name=ended, flag_values=flags, flag_meanings=MEANINGS)
@@ -46,6 +48,11 @@ def packed(study: Study, history: str = "") -> bytes:
     _put_texts(file, "reasons", study.reasons, long_name="distinct reasons; the first is none")
     file.flush()
     return buffer.getvalue()
+
+
+def _name(path: str) -> str:
+    """The name in the file of an axis or a quantity."""
+    return path.replace("/", "_over_").replace(" ", "_")
 
 
 def _put_texts(file: Any, name: str, texts: tuple[str, ...], **told: Any) -> None:

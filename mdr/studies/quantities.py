@@ -1,30 +1,39 @@
-"""What a study can compute: a catalogue of quantities, and quantities of one's own.
+"""What a study can compute: a catalogue of quantities, their derivatives, and quantities of one's own.
 
 Those of the first list follow from a case alone, those of the second from its COF curve and need an axis of velocity.
+A derivative is named as it is written, "d cof/d oscillation.du_z", with any number of a case, or v_0, below.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from mdr.case.contact import SlidingContact
-from mdr.case.paths import VELOCITIES
+from mdr.case.contact import KINDS, SlidingContact
+from mdr.case.paths import HOLD, RIG, VELOCITIES, facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
 from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.friction.cof_curve import Columns
+from mdr.friction.inputs import OF_RUN
 from mdr.friction.measured_velocity import measure_critical_velocity
+from mdr.friction.sensitivity import QUANTITIES, sensitivity
+from mdr.given.vary import value_at
+from mdr.march.periodic.steady import BUDGET
 from mdr.march.result.slowest import least_velocity
 from mdr.normal.normal_force import full_cof, mean_normal_force
 from mdr.normal.resolved import at_rest, resolved
+from mdr.tools.allowed import refusal_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import truth
 from mdr.tools.messages import offer, short
+from mdr.tools.notation import quotient
+
+_DERIVATIVE = re.compile(r"d (\S+)/d (.+)")
 
 
 @dataclass(frozen=True)
@@ -51,6 +60,7 @@ class Quantity:
     per_velocity: bool = field(default=False, kw_only=True)  #: whether it depends on the pulling velocity
 
     def __post_init__(self) -> None:
+        """What is given is checked; a derivative has its name from the reader of names."""
         for name in ("name", "unit", "meaning"):
             if not isinstance(getattr(self, name), str):
                 raise TypeError(f"{name} must be a string, got {getattr(self, name)!r}")
@@ -79,6 +89,35 @@ class _Attribute:
 
     def __call__(self, case: SlidingContact, curve: Columns | None = None) -> Any:
         return getattr(self.known(case) if self.known else case if curve is None else curve, self.name)
+
+
+@dataclass(frozen=True)
+class Derivative(Quantity):
+    """A derivative in SI of a quantity with respect to an input of the case, by `mdr.sensitivity`."""
+
+    of: Slope
+
+    def __post_init__(self) -> None:
+        """Its name is that of a derivative, and was read."""
+
+
+@dataclass(frozen=True)
+class Slope:
+    """What a derivative is, as a function that can be sent to other processes."""
+
+    quantity: str  #: of those that `sensitivity` has
+    path: str  #: of the input
+    held: Mapping[str, Any] = field(default_factory=dict)  #: while the input varies; None: as the case has it
+    accuracy: float = BUDGET  #: as in `sensitivity`
+
+    def __call__(self, case: SlidingContact, v_0: float | None = None) -> float:
+        """The derivative; ValueError says why there is none."""
+        hold = self.held.get(HOLD, "depth")
+        held = {path: value_at(case, path, hold) if one is None else one for path, one in self.held.items()}
+        found = sensitivity(case, v_0, [self.path], held=held, accuracy=self.accuracy)
+        for slope in getattr(found, f"d_{self.quantity}").values():
+            return float(slope)
+        raise ValueError(next(iter(found.why[self.quantity].values()), None) or refusal_of(static_cof, case))
 
 
 def _share(case: SlidingContact, curve: Columns) -> Array:
@@ -136,17 +175,22 @@ CATALOGUE: dict[str, Quantity] = {
 
 
 def read_quantities(
-    quantities: Iterable[str | Quantity], paths: Iterable[str], beside: Iterable[str] = ()
+    quantities: Iterable[str | Quantity],
+    paths: Iterable[str],
+    beside: Iterable[str] = (),
+    held: Mapping[str, Any] | None = None,
+    accuracy: float = BUDGET,
 ) -> tuple[Quantity, ...]:
     """The quantities of a study with axes of these paths, over v_0 with the critical velocity that maps are read by,
-    and some besides.
+    and some besides. held, accuracy: of derivatives; what an axis sets a rig to is held, too.
 
     Raises ValueError or TypeError for what cannot be computed.
     """
     if isinstance(quantities, str | Quantity) or not isinstance(quantities, Iterable):
         raise TypeError(f"quantities must be a list of names, got {short(repr(quantities))}; write [...]")
     paths = list(paths)
-    found = tuple(_known(one) for one in quantities)
+    kept = {**(held or {}), **{path: None for path in paths if path in RIG}}
+    found = tuple(_known(one, {HOLD: "depth", **kept} if "load" in kept else kept, accuracy) for one in quantities)
     if not found:
         raise ValueError(f"quantities must name at least one; there are {', '.join(CATALOGUE)}")
     names = [one.name for one in found]
@@ -162,7 +206,9 @@ def read_quantities(
     return found + tuple(CATALOGUE[name] for name in others if name not in [*names, *paths])
 
 
-def _known(one: Any) -> Quantity:
+def _known(one: Any, held: Mapping[str, Any], accuracy: float) -> Quantity:
+    if isinstance(one, str) and (parts := _DERIVATIVE.fullmatch(one)):
+        return _derivative(one, parts[1], Slope(parts[1], parts[2], held, accuracy))
     if isinstance(one, str):
         if one not in CATALOGUE:
             raise ValueError(f"{short(one)} is no quantity of the catalogue; {offer(one, list(CATALOGUE))}")
@@ -172,3 +218,17 @@ def _known(one: Any) -> Quantity:
     if CATALOGUE.get(one.name, one) != one:
         raise ValueError(f"{one.name} is the name of another quantity of the catalogue; give yours one of its own")
     return one
+
+
+def _derivative(name: str, quantity: str, of: Slope) -> Derivative:
+    """The derivative of this name. ValueError for a quantity that has none, and for what is no input."""
+    if quantity not in QUANTITIES:
+        raise ValueError(f"{short(name)}: {short(quantity)} has no derivative here, but {', '.join(QUANTITIES)} have")
+    above, below, moves = CATALOGUE[quantity], facts_at(of.path), quantity == "cof"
+    if of.path == OF_RUN and not moves:
+        raise ValueError(f"{name}: {quantity} does not depend on {OF_RUN}")
+    if not below.meaning or of.path in {*KINDS, *VELOCITIES} - {OF_RUN}:
+        such = "oscillation.du_z, material.E, load or v_0"
+        raise ValueError(f"{short(name)}: {short(of.path)} is no input of a case, such as {such}")
+    meaning = f"derivative of the {above.meaning} with respect to the {below.meaning}"
+    return Derivative(name, quotient(above.unit, below.unit), of, meaning, per_velocity=moves)

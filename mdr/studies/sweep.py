@@ -62,7 +62,8 @@ def sweep(
         a quantity is defined in the script itself. Any Executor will do, of processes that are spawned, or of a cluster
         (Dask: `client.get_executor()`).
     quantities : iterable of str or Quantity
-        Names of `mdr.studies.CATALOGUE`, or records of your own. Over "v_0" it has "v_c" too, which its maps show.
+        Names of `mdr.studies.CATALOGUE`, derivatives such as "d cof/d oscillation.du_z" (`mdr.sensitivity`), or records
+        of your own. Over "v_0" it has "v_c" too, which its maps show.
     chunk_seconds : float
         Length of a chunk of work [s].
     shard : str or tuple of int, optional
@@ -110,7 +111,7 @@ def sweep(
     require_knobs(**knobs)
     knobs["accuracy"] = accuracy_of(accuracy)
     is_asked = load_asked({**held, **axes}, case) is not None and "mean_F_N" not in axes
-    columns = read_quantities(quantities, axes, beside=["mean_F_N"] if is_asked else [])
+    columns = read_quantities(quantities, axes, ["mean_F_N"] if is_asked else [], held, knobs["accuracy"])
     work = Work(case, axes_read, columns, knobs, held)
     _require_room(work)
     chunk_seconds, part = positive("chunk_seconds", chunk_seconds, "length of a chunk in s"), _shard(shard)

@@ -32,11 +32,8 @@ def _study(file: Any) -> Study:
     grid = tuple(_axis(variables[name]) for name in status.dimensions)
     apart = {*status.dimensions, "status", "reason", "reasons"}
     # the file sorts its variables by shape, which all quantities share, and keeps their order otherwise
-    columns = tuple(
-        Column(name, "-" if (unit := _text(one, "units")) == "1" else unit, _text(one, "long_name"))
-        for name, one in variables.items()
-        if name not in apart
-    )
+    kept = {name: one for name, one in variables.items() if name not in apart}
+    columns = tuple(_column(name, one) for name, one in kept.items())
     return Study(
         grid,
         columns,
@@ -44,11 +41,16 @@ def _study(file: Any) -> Study:
         version=_text(file, "mdr_version"),
         identity=_text(file, "identity"),
         selected=tuple((path, told) for path, told in json.loads(_text(file, "selected") or "[]")),
-        values=np.stack([_native(variables[column.name], "f8") for column in columns]),
+        values=np.stack([_native(one, "f8") for one in kept.values()]),
         status=_native(status, "u1"),
         reason=_native(variables["reason"], "i4"),
         reasons=_texts(variables["reasons"]),
     )
+
+
+def _column(name: str, variable: Any) -> Column:
+    unit = _text(variable, "units")
+    return Column(_text(variable, "path") or name, "-" if unit == "1" else unit, _text(variable, "long_name"))
 
 
 def _axis(variable: Any) -> Axis:

@@ -123,6 +123,27 @@ def numbers_in(name: str, value: Any, unit: str) -> Any:
     return value_in(name, value, unit) if isinstance(value, str) and unit else value
 
 
+def quotient(unit: str, by: str) -> str:
+    """Unit of a quantity over another: "m/s" over "Pa" is "m/(s Pa)". Empty where one of them is."""
+    if not (unit and by):
+        return ""
+    (above, below), (under, over) = _factors(unit), _factors(by)
+    above, below = above + over, below + under
+    for one in [*above]:
+        if one in below:
+            above.remove(one)
+            below.remove(one)
+    left = " ".join(above) or ("1" if below else "-")
+    right = " ".join(below)
+    return f"{left}/({right})" if len(below) > 1 else f"{left}/{right}" if below else left
+
+
+def _factors(unit: str) -> tuple[list[str], list[str]]:
+    """What stands above and below the line of a unit, "-" being nothing."""
+    above, _, below = unit.partition("/")
+    return [one for one in above.split() if one not in ("-", "1")], below.strip("()").split()
+
+
 def shown(value: float, unit: str, digits: int = 5) -> str:
     """A value with the prefix that brings it above one, as `value_in` reads it: "2 µm", "3 MPa"; or "infinite"."""
     if math.isinf(value):

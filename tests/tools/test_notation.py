@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from mdr.tools.notation import UNITS, numbers_in, parted, scale_of, shown, value_in
+from mdr.tools.notation import UNITS, numbers_in, parted, quotient, scale_of, shown, value_in
 
 TURN = 2 * math.pi
 READ = {
@@ -104,6 +104,22 @@ def test_what_is_shown_is_read_again():
     for unit in UNITS:
         for value in rng.choice([-1, 1], 50) * 10 ** rng.uniform(-12, 12, 50):
             assert_allclose(value_in("x", shown(value, unit, 15), unit), value, rtol=1e-13)
+
+
+def test_the_unit_of_a_quotient():
+    found = {
+        ("-", "m"): "1/m",
+        ("m/s", "Pa"): "m/(s Pa)",
+        ("-", "m/s"): "s/m",
+        ("m/s", "m/s"): "-",
+        ("m/s", "m"): "1/s",
+        ("-", "N s/m"): "m/(N s)",
+        ("-", "-"): "-",
+        ("m/(s Pa)", "m"): "1/(s Pa)",
+        ("", "m"): "",
+        ("m", ""): "",
+    }
+    assert {units: quotient(*units) for units in found} == found
 
 
 def test_lists_hold_quantities_and_words_stay():
