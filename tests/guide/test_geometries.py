@@ -227,6 +227,20 @@ def test_profile_of_more_facets_comes_closer_to_the_ball():
     assert_allclose(s.force(s.shapes[1]), s.force(mdr.Cone(np.arctan(0.7e-3 / 20e-3))), rtol=1e-8)
 
 
+def test_elasticities_are_greatest_where_contact_is_just_kept_and_then_those_of_a_damper():
+    s = script("elasticities")
+    amplitude, velocity = (s.elasticity[name] for name in ("amplitude", "velocity"))
+    assert s.study.count(mdr.studies.Status.DONE) == s.study.status.size
+    assert amplitude[:, 0].min() < -2
+    assert 0.8 <= s.alpha[np.argmin(amplitude[:, 0])] < 1
+    assert np.all(amplitude[:, s.speed > 1] == 0)
+    assert np.all(amplitude[s.alpha > 1.2] > -1)
+    lost = s.alpha > 1.2  # a damper, but for a slip before the ball is lifted off, whose velocity is sqrt(1 - 1/alpha²)
+    assert np.all(np.abs(velocity[lost, 0] - 1) < s.speed[0] / np.sqrt(1 - s.alpha[lost] ** -2))
+    lag, slope, unit = psi(0.05), (psi(0.06) - psi(0.04)) / 0.02, 1.5 * 0.1  # k_zc du_z over the load of a ball
+    assert_allclose(amplitude[0, 0], -unit * (lag - 0.05 * slope) / (1 - unit * lag), rtol=0.1)  # alpha = 0.1
+
+
 def test_gallery_shapes_are_equally_stiff_and_lose_by_what_they_carry():
     s = script("gallery")
     share = {"flat punch": 1, "cone": 1 / 2, "paraboloid": 2 / 3, "power law $r^4$": 4 / 5, "from force": 1 / 1.7}
