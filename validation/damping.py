@@ -67,9 +67,9 @@ def claim(effort: str) -> Claim:
     contact. Times of stick in runs give the slope to {worst:.1g}. The force that springs gain while they stick is
     v_0 dF/dv_0, in the mean. The rest, μ_0 dF/dμ_0, is not that of slip alone, but also what springs held when they
     began to stick: at 0.01 v_c stick has {held:.0f} % of the load and time, and the slope {gained:.0f} % of the force.
-    With a body, {swings}; one that is too heavy to follow the vibration is as a rigid pull to {heavy}. Friction that
-    falls where it is let go has another slope, by {falls}. A slow motion at frequency W besides the pull
-    meets the damper c = dF/dv_0 up to (W d)²/12, d = q/f: within 1 % for W below {slowest:.3f} ω/q. One that is faster
+    With a body that follows the vibration the times of stick give {swings} of the slope; one too heavy for that is as a
+    rigid pull to {heavy}. Of friction that falls they give {falls}. A slow motion at frequency W besides the pull meets
+    the damper c = dF/dv_0 up to (W d)²/12, d = q/f: within 1 % for W below {slowest:.3f} ω/q. One that is faster
     also meets a spring, and both are known from the slope: runs differ by {swayed:.0e}. A contact that is lifted off in
     each period has no friction at rest: it is a damper c = k_xc q²/2f, which knows no μ_0, up to the share
     v_0/(v_c √(1 − 1/α²)). So 10 N/µm that touch for half of each period at 1 kHz are 1.25 kN s/m. A stage on such a
@@ -92,8 +92,7 @@ def claim(effort: str) -> Claim:
     stage = swing(0.05, 4)
     worst = max(abs(one.by_stick / one.slope - 1) for one in sticks)
     held, gained = 100 * at_rest.stick_share, 100 * at_rest.gained / at_rest.force
-    swings, falls = (f"{100 * (one.by_stick / one.slope - 1):+.0f} %" for one in others.values())
-    swings = f"which follows the vibration, the same times of stick are off by {swings}"
+    swings, falls = (percent(one.by_stick / one.slope, 3) for one in others.values())
     heavy = percent(abs(far.by_stick / far.slope - 1), 1)
     swayed = max(abs(one.by_run / one.by_law - 1) for one in impedances)
     slowest, power = np.sqrt(0.12) / (2 * np.pi), _power()
@@ -107,7 +106,7 @@ def claim(effort: str) -> Claim:
             *_impedance_checks(impedances),
             *_lost_checks(),
             Check(
-                "way of a stage less that on the damper, over the start", damped, 0.0, stage.resolved, "second order"
+                "way of a stage less that on the damper", damped, 0.0, stage.resolved, "second order; over its start"
             ),
             Check("power of v_0 of the slope, ωτ = 0.6, kept", power, -1 / 3, 0.01, "the next term is v^(1/3) smaller"),
         ),
