@@ -78,8 +78,8 @@ def claim(effort: str) -> Claim:
 
     Verdict: holds if the pull is rigid or the body heavy, and friction does not fall
 
-    Sentence: Springs that stick for the share q of each period add k_x q²/2f to dF/dv_0, the damper of motions slower
-    than 0.055 ω/q. Contact lost in each period makes dry friction this damper.
+    Sentence: Springs that stick for the share <i>q</i> of each period add k_x <i>q</i>²/2<i>f</i> to the slope, the
+    damper of motions slower than 0.055 ω/<i>q</i>. Contact lost in each period makes dry friction this damper.
     """
     quick = effort == "quick"
     chosen = [(name, case, v) for name, case in CASES.items() for v in ((0.4,) if quick else (0.1, 0.4))]
