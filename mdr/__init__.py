@@ -62,8 +62,10 @@ if TYPE_CHECKING:
     from mdr.friction.measured_velocity import measure_critical_velocity
     from mdr.friction.verdict import verdict
     from mdr.friction.fit import fit
+    from mdr.friction.design import design
     from mdr.friction.find import find
     from mdr.friction.sensitivity import sensitivity
+    from mdr.friction.target import Target
     from mdr.friction.tolerance import tolerance
     from mdr.studies import Quantity, Study, read_study
     from mdr.studies.many import ManyCofs, slide_many
@@ -95,8 +97,10 @@ _LATER = {
     "mdr.friction.measured_velocity": ("measure_critical_velocity",),
     "mdr.friction.verdict": ("verdict",),
     "mdr.friction.fit": ("fit",),
+    "mdr.friction.design": ("design",),
     "mdr.friction.find": ("find",),
     "mdr.friction.sensitivity": ("sensitivity",),
+    "mdr.friction.target": ("Target",),
     "mdr.friction.tolerance": ("tolerance",),
     "mdr.studies": ("studies", "Quantity", "Study", "read_study"),
     "mdr.studies.sweep": ("sweep",),
@@ -106,8 +110,8 @@ _LATER = {
 __all__ = [
     "CaseFileError", "CofCurve", "ContactElement", "FrictionData", "ManyCofs", "PlausibilityWarning", "Quantity",
     "RandomCof", "RigidPull", "SlideRecord", "SlidingContact", "SlidingRun", "Spectrum", "SpringArray", "SpringPull",
-    "State", "Study", "blocked_cof", "cof_curve", "critical_velocity", "displacement_of", "find", "fit",
-    "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
+    "State", "Study", "Target", "blocked_cof", "cof_curve", "critical_velocity", "design", "displacement_of", "find",
+    "fit", "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
     "measure_critical_velocity", "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof",
     "read_case", "read_creep", "read_force_curve", "read_friction_data", "read_moduli", "read_record",
     "read_relaxation", "read_study", "register", "resolved", "rig", "sensitivity", "slide", "slide_many",

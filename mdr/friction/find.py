@@ -38,6 +38,7 @@ from mdr.tools.checks import between, ends, finite, positive
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ticker
+from mdr.tools.ranges import Range
 from mdr.tools.summary import Printed
 
 LAW = Domain((ALIKE,), instead="slide(case, v_0) at each velocity; find with smooth=True is where stick-slip ends")
@@ -237,16 +238,10 @@ class _Search:
 
     def __init__(self, at: Callable[[float], SlidingContact], wish: _Wish, low: float, high: float) -> None:
         self.at, self.wish, self.low, self.high = at, wish, low, high
+        self.value = Range(low, high).value  # at a coordinate
         self.found: dict[float, tuple[float, float, float]] = {}  #: by coordinate: what was asked, its error, accuracy
         self.refused = ""  #: why one of them cannot be
         self.ticker = Ticker("find", parts="cases")
-
-    def value(self, x: float) -> float:
-        """The value at a coordinate."""
-        # of a wide range values grow by a constant factor
-        if 0 < 4.0 * self.low < self.high:
-            return float(self.low * (self.high / self.low) ** x)
-        return self.low + (self.high - self.low) * x
 
     def miss(self, x: float, accuracy: float = LEAST_ACCURATE) -> float:
         """How far the case at a coordinate is from the wish, its side for sure; NaN where there is no such case."""

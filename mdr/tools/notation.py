@@ -30,6 +30,7 @@ UNITS = {
     "m/s": _prefixed("m/s", "cmµn") | {"mm/min": 1e-3 / 60},
     "m/s²": _prefixed("m/s2", "m") | _prefixed("g", "m", GRAVITY),
     "N": _prefixed("N", "kmµnp"),
+    "W": _prefixed("W", "kMmµn"),
     "Pa": _prefixed("Pa", "kMG") | {"N/mm2": 1e6, "bar": 1e5, "psi": 0.45359237 * GRAVITY / 0.0254**2},
     "1/s": {"1/s": 1.0, "s^-1": 1.0, "s-1": 1.0, "1/ms": 1e3, "1/us": 1e6, "1/min": 1 / 60},
     "1/Pa": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9},
