@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from mdr.friction.fit import fit
     from mdr.friction.design import design
     from mdr.friction.find import find
+    from mdr.friction.front import front
     from mdr.friction.sensitivity import sensitivity
     from mdr.friction.target import Target
     from mdr.friction.tolerance import tolerance
@@ -99,6 +100,7 @@ _LATER = {
     "mdr.friction.fit": ("fit",),
     "mdr.friction.design": ("design",),
     "mdr.friction.find": ("find",),
+    "mdr.friction.front": ("front",),
     "mdr.friction.sensitivity": ("sensitivity",),
     "mdr.friction.target": ("Target",),
     "mdr.friction.tolerance": ("tolerance",),
@@ -111,7 +113,7 @@ __all__ = [
     "CaseFileError", "CofCurve", "ContactElement", "FrictionData", "ManyCofs", "PlausibilityWarning", "Quantity",
     "RandomCof", "RigidPull", "SlideRecord", "SlidingContact", "SlidingRun", "Spectrum", "SpringArray", "SpringPull",
     "State", "Study", "Target", "blocked_cof", "cof_curve", "critical_velocity", "design", "displacement_of", "find",
-    "fit", "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
+    "fit", "front", "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
     "measure_critical_velocity", "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof",
     "read_case", "read_creep", "read_force_curve", "read_friction_data", "read_moduli", "read_record",
     "read_relaxation", "read_study", "register", "resolved", "rig", "sensitivity", "slide", "slide_many",

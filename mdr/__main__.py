@@ -1,7 +1,7 @@
-"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `tolerance`,
-`sensitivity`, `export` of a case file, `mdr record` of a recorded motion, `mdr indenter`, `mdr material` and `mdr
-motion` of what was measured, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes` and `mdr case` to
-begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
+"""The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `design`,
+`front`, `tolerance`, `sensitivity`, `export` of a case file, `mdr record` of a recorded motion, `mdr indenter`, `mdr
+material` and `mdr motion` of what was measured, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes`
+and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -55,6 +55,9 @@ COMMANDS = {
     "verdict": Command("judge:verdict", "how good the closed-form v_c is, and what to use in its place", CASE),
     "fit": Command("fit:fit", "parameters of the case from measured friction over velocity", SAID),
     "find": Command("ask:find", "the value of one number that brings about a friction, or a critical velocity", SAID),
+    "design": Command(
+        "design:design", "values of several numbers with which friction, v_c and power are within limits", SAID),
+    "front": Command("design:front", "the least power that a vibration takes, over the friction that it leaves", SAID),
     "tolerance": Command(
         "ask:tolerance", "friction and critical velocity as each input alone is a little less and more", SAID),
     "sensitivity": Command(

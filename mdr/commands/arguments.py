@@ -70,6 +70,13 @@ def add_accuracy(command: argparse.ArgumentParser, of_what: str) -> None:
     command.add_argument("--accuracy", metavar="share", type=read, default=BUDGET, help=meaning)
 
 
+def add_limit(command: argparse.ArgumentParser, what: str) -> None:
+    """The end of a search that answers the best of `what` so far."""
+    limit = f"computing time after which the best {what} so far are printed (status 1), as at Ctrl-C or SIGTERM (130)"
+    read = plain_number("s", "a time such as 60s or 5min")
+    command.add_argument("--limit", metavar="60s", type=read, help=limit)
+
+
 def add_reading(command: argparse.ArgumentParser, *, of_time: bool = False) -> None:
     """What a CSV file does not say of itself; of one over time its rate too."""
     for name, value, what in (

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import signal
 from functools import partial
 from typing import Any
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.commands.arguments import add_reading, path_of, plain_number, read_as, read_file, velocity
-from mdr.commands.output import Exit, WrongInput, answer, picked, refusals
+from mdr.commands.arguments import add_limit, add_reading, path_of, plain_number, read_as, read_file, velocity
+from mdr.commands.output import WrongInput, answer, picked, refusals, status_of, stopped_by_signals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.fit import Fit
 from mdr.given.case_file import Said
@@ -30,9 +29,7 @@ def add_options_of_fit(command: argparse.ArgumentParser) -> None:
     share = plain_number("-", "a share, such as 95% or 0.95")
     level = "level of the intervals (default: 0.95)"
     command.add_argument("--confidence", metavar="share", type=share, default=0.95, help=level)
-    seconds = plain_number("s", "a time such as 60s or 5min")
-    limit = "computing time after which the best values so far are printed (status 1), as at Ctrl-C or SIGTERM (130)"
-    command.add_argument("--limit", metavar="60s", type=seconds, help=limit)
+    add_limit(command, "values")
     over = "velocity of all rows, of friction over du_x, du_y, du_z, u_z0, load or frequency: columns du_x [um], cof"
     command.add_argument("--v-0", metavar="velocity", type=velocity, help=over)
     track = plain_number("m", "a length such as 12mm")
@@ -50,16 +47,11 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     data = read_file(partial(mdr.read_friction_data, **of_data), args.data, args)
     with refusals():
         knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
-        before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # of `timeout`: as Ctrl-C
-        try:
+        with stopped_by_signals():
             found = mdr.fit(asked.case, data, args.free, limit_s=args.limit, **knobs)
-        finally:
-            signal.signal(signal.SIGTERM, before)
     answer(args, _told(found), str(found), found.case)
     write_found(args, found.plot, mdr.write_case(found.case), str(found))
-    if found.stopped:
-        return Exit.FAILED if "limit" in found.stopped else Exit.INTERRUPTED
-    return Exit.DONE
+    return status_of(found.stopped)
 
 
 def _told(found: Fit) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import signal
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -40,6 +41,23 @@ def refusals() -> Iterator[None]:
         yield
     except ValueError as fault:
         raise WrongInput(str(fault)) from None
+
+
+@contextmanager
+def stopped_by_signals() -> Iterator[None]:
+    """What is searched for inside ends at SIGTERM, of `timeout`, as it does at Ctrl-C."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def status_of(stopped: str, is_found: bool = True) -> Exit:
+    """The status of a search; stopped: what ended it, is_found: whether there is what was asked for."""
+    if stopped and "limit" not in stopped:
+        return Exit.INTERRUPTED
+    return Exit.FAILED if stopped or not is_found else Exit.DONE
 
 
 class Told(NamedTuple):

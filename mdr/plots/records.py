@@ -12,6 +12,7 @@ import numpy as np
 
 from mdr.case.paths import facts_at
 from mdr.plots.figures import COLOURS, Axes, Figure, axes_of, prefix, style, subplots
+from mdr.tools.notation import shown
 
 
 def plot_slide_record(found: Any) -> Figure:
@@ -95,3 +96,34 @@ def _bars(ax: Axes, pairs: Mapping[str, tuple[float, float]], base: float, by: f
 def _label(path: str) -> str:
     """What an input is called."""
     return facts_at(path).label or facts_at(path).meaning or path
+
+
+def plot_front(found: Any) -> Figure:
+    """Draw the power of a Front over friction, and below it each number that was free.
+
+    Parameters
+    ----------
+    found : Front
+        What `front` returned.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+    """
+    paths = [*found.designs[0].values]
+    with style():
+        fig, axes = subplots(1 + len(paths), 1, sharex=True, figsize=(6.4, 2.0 + 1.8 * len(paths)))
+        factor, symbol = prefix(found.power, "W")
+        axes[0].plot(found.cof, factor * found.power, "o-", color="k")
+        axes[0].set(ylabel=f"least power [{symbol}]", yscale="log" if np.all(found.power > 0) else "linear")
+        for ax, path, colour in zip(axes[1:], paths, COLOURS, strict=False):
+            values, unit = np.array([one.values[path] for one in found.designs]), facts_at(path).unit
+            factor, symbol = prefix(values, unit)
+            ax.plot(found.cof, factor * values, "o-", color=colour)
+            ax.set(ylabel=f"{_label(path)}\n[{symbol}]")
+        for ax in axes:
+            ax.axvline(found.full_cof, color="0.6", lw=1, ls="--")
+        axes[-1].set_xlabel(f"greatest friction up to {shown(found.up_to, 'm/s')}")
+        fig.align_ylabels()
+    return fig
