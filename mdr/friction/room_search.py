@@ -12,6 +12,7 @@ Of the least power the same search raises the room of the power alone, with all 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -42,10 +43,11 @@ from mdr.tools.progress import Ticker
 from mdr.tools.ranges import Range
 from mdr.tools.summary import Row, Summarised, Summary
 
-STARTS = 4  #: peaks among the points looked at first from which the search goes on
-LOOKS, CLOSER = 3, 4.0  #: how often points fill ranges, and by how much smaller ones around the best each time
+STARTS = 3  #: peaks among the points looked at first from which the search goes on
+LOOKS, CLOSER = 2, 4.0  #: how often points fill smaller ranges around the best, and by how much smaller each time
 ROUNDS = 4  #: of places that are added
 STEP = 1e-3  #: of a range, over which slopes are taken: well above what runs scatter by, well below any curvature
+GAIN, IDLE = 1e-4, 4  #: of room in so many steps, below which a climb ends
 CLOSE = 0.01  #: room by which a limit is above the least one and limits too
 REFUSED = -2.0  #: room of what is no case: below all others
 POWER = "power_at_most"  #: the limit that is lowered where the least power is asked for
@@ -131,6 +133,10 @@ def _ends(path: str, given: Any) -> tuple[float, float]:
     return ends(f"range of {path}", given)
 
 
+class _Still(Exception):
+    """A climb does not gain any more."""
+
+
 class Search:
     """The search for the design with the most room, or with the least power."""
 
@@ -198,11 +204,14 @@ class Search:
 
     def most_room(self) -> None:
         """The greatest least room over all limits and places: looked for everywhere, then twice closer to the best."""
-        around, size = self.space.of_case, 1.0
+        evenly, around, size = self.space.evenly, self.space.of_case, 1.0
+        self._raise(self._peaks([around, *evenly])[:STARTS])
         for _ in range(LOOKS):
-            low = np.clip(around - size / 2, 0, 1 - size)
-            self._raise(self._peaks([around, *(low + size * self.space.evenly)]))
             around, size = self.found, size / CLOSER
+            low = np.clip(around - size / 2, 0, 1 - size)
+            peaks = self._peaks([around, *(low + size * evenly[: len(evenly) // 4])])
+            if others := [x for x in peaks if x is not around]:
+                self._raise([*others[:1], around])
 
     def _peaks(self, points: list[Array]) -> list[Array]:
         """The best of some points that have more room than the points next to them."""
@@ -210,7 +219,7 @@ class Search:
         apart = np.linalg.norm(np.subtract(np.array(points)[:, None], points), axis=2)
         near = np.argsort(apart, axis=1)[:, : 2 * points[0].size + 1]  # and itself
         peaks = [i for i in np.argsort(-scores).tolist() if scores[i] >= scores[near[i]].max() > REFUSED]
-        return [points[i] for i in peaks[:STARTS]] or [self.found]
+        return [points[i] for i in peaks] or [self.found]
 
     def least_power(self, starts: list[Array]) -> None:
         """The least power with which all limits hold, by more than the errors of runs; from cases that keep them."""
@@ -234,10 +243,7 @@ class Search:
     def _raise(self, starts: list[Array]) -> None:
         """Raise the room from these on, until the best so far is as good at all places as at those asked."""
         self.ends = [self._climbed(x) for x in starts]
-        for _ in range(ROUNDS * len(starts)):
-            best = max(self.ends, key=self.score)
-            if not (worse := self._worse(best)):
-                return
+        while worse := self._worse(best := max(self.ends, key=self.score)):
             self.places = [*self.places, *worse]
             self.ends.append(self._climbed(best))
 
@@ -255,21 +261,25 @@ class Search:
         """Coordinates with the most room near to these, or these."""
         from scipy.optimize import minimize
 
-        is_raised, seen = self.is_raised(self.places), [start]
+        is_raised, seen, steps = self.is_raised(self.places), [start], [REFUSED]
 
         def spare(z: Array) -> Array:
             seen.append(np.clip(z[:-1], 0, 1))
             return self.above(seen[-1], self.places) - np.where(is_raised, z[-1], 0.0)
 
-        def slopes(z: Array) -> Array:
+        def slopes(z: Array) -> Array:  # once in each step
+            steps.append(max(map(self.score, seen)))
+            if len(steps) > IDLE and steps[-1] - steps[-IDLE] < GAIN:
+                raise _Still
             return np.column_stack([self._slopes(np.clip(z[:-1], 0, 1)), np.where(is_raised, -1.0, 0.0)])
 
         up = np.append(np.zeros(start.size), -1.0)
-        minimize(
-            lambda z: -z[-1], np.append(start, self.score(start)), jac=lambda _: up, method="SLSQP",
-            bounds=[*(start.size * [(0.0, 1.0)]), (REFUSED, 1.0)],
-            constraints={"type": "ineq", "fun": spare, "jac": slopes}, options={"maxiter": 25, "ftol": 1e-5},
-        )  # fmt: skip
+        with suppress(_Still):
+            minimize(
+                lambda z: -z[-1], np.append(start, self.score(start)), jac=lambda _: up, method="SLSQP",
+                bounds=[*(start.size * [(0.0, 1.0)]), (REFUSED, 1.0)],
+                constraints={"type": "ineq", "fun": spare, "jac": slopes}, options={"ftol": 1e-1 * GAIN},
+            )  # fmt: skip
         return max(seen, key=self.score)
 
     def _slopes(self, x: Array) -> Array:
