@@ -1,7 +1,8 @@
 """Target: limits on friction, critical velocity and power; how far inside them a contact is, and where the worst is.
 
-The room of a limit is a number between -1 and 1, above zero inside: of friction the distance over friction of full
-slip, of a velocity or a power v and its limit b (v - b)/(v + b), so that an infinite one counts as 1.
+The room of a limit is a number, above zero inside: of friction the distance over friction of full slip, of a velocity
+or a power v and its limit b (v - b)/(v + b), so that an infinite one counts as 1. Friction that is full at v has less
+room, by how far v is above the velocity v_c from which all springs slip, (v - v_c)/(v + v_c): no run tells that.
 
 Friction is limited at all velocities up to one. On a resonance of a body friction stays reduced however fast the pull,
 and v_c is infinite; but a share of a per cent beside it all may be lost. So a design keeps off resonances, and where
@@ -31,6 +32,7 @@ from mdr.march.result.run import SlidingRun, finish
 from mdr.march.result.slide import runs, slide
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import at_rest, resolved
+from mdr.tools.allowed import refusal_of
 from mdr.tools.checks import finite, positive_or_none
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ended, time_is_over
@@ -128,8 +130,18 @@ class Answer:
         return run
 
     @cached_property
+    def excess(self) -> float:
+        """How far the velocity is above that from which all springs slip [-], where that is known; 0 below it."""
+        case = self.case
+        if not case.friction.is_coulomb or case.moves_across or refusal_of(full_slip_critical_velocity, case):
+            return 0.0
+        return max(-_above(full_slip_critical_velocity(case), abs(self.v_0)), 0.0)
+
+    @cached_property
     def cof(self) -> tuple[float, float]:
         """Friction [-] and its error."""
+        if self.is_quick and self.excess:
+            return full_cof(self.case), 0.0
         if self.case not in CLOSED_FORM:
             return self._run.cof, 0.0 if self.is_quick else self._run.cof_error
         cof, error, why = friction_at(self.case, self.v_0, BUDGET)
@@ -160,12 +172,15 @@ class Limit(NamedTuple):
     value: Callable[[Answer], float]  #: what is limited
 
 
-def _within_friction(sign: int) -> Callable[[Answer, float], tuple[float, float]]:
-    def room(answer: Answer, limit: float) -> tuple[float, float]:
-        share, error = answer.share
-        return sign * (limit / full_cof(answer.case) - share), error
+def _below_friction(answer: Answer, most: float) -> tuple[float, float]:
+    """Of full friction at most so much: by how far it is full, too, which tells the way to where it is not."""
+    share, error = answer.share
+    return most / full_cof(answer.case) - share - answer.excess, error
 
-    return room
+
+def _above_friction(answer: Answer, least: float) -> tuple[float, float]:
+    share, error = answer.share
+    return share - least / full_cof(answer.case), error
 
 
 def _v_c(answer: Answer) -> float:
@@ -211,8 +226,8 @@ def _no_load(answer: Answer) -> float:
 
 OFF_RESONANCE = "off_resonance"  #: a limit of every target for what swings
 LIMITS = {
-    "cof_at_most": Limit("-", 1, True, _within_friction(1), _friction),
-    "cof_at_least": Limit("-", -1, True, _within_friction(-1), _friction),
+    "cof_at_most": Limit("-", 1, True, _below_friction, _friction),
+    "cof_at_least": Limit("-", -1, True, _above_friction, _friction),
     "v_c_at_least": Limit("m/s", -1, False, lambda one, least: (_above(_v_c(one), least), 0.0), _v_c),
     # what drives at a velocity still runs faster without a load
     "no_load_velocity_at_least": Limit("m/s", -1, False, lambda one, _: (-one.share[0], one.share[1]), _no_load),

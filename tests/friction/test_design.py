@@ -70,7 +70,7 @@ def test_no_design_is_on_a_resonance():
 def test_a_body_holds_at_each_velocity_and_frequency_beside():
     """Friction of a body may be less at higher velocities: it is looked at where it is worst."""
     v_0 = 0.3 * v_c(BODY)
-    found = mdr.design(BODY, mdr.Target(cof_at_most=0.5 * BODY.mu_0, up_to=v_0), {"omega": (150.0, 900.0)})
+    found = mdr.design(BODY, mdr.Target(cof_at_most=0.8 * BODY.mu_0, up_to=v_0), {"omega": (150.0, 900.0)})
     assert found.met
     for part in (0.95, 1.0, 1.05):
         case = replace(found.case, oscillation=replace(found.case.oscillation, omega=part * found.case.omega))
