@@ -1,8 +1,7 @@
 """Target: limits on friction, critical velocity and power; how far inside them a contact is, and where the worst is.
 
 The room of a limit is a number, above zero inside: of friction the distance over friction of full slip, of a velocity
-or a power v and its limit b (v - b)/(v + b), so that an infinite one counts as 1. Friction that is full at v has less
-room, by how far v is above the velocity v_c from which all springs slip, (v - v_c)/(v + v_c): no run tells that.
+or a power v and its limit b (v - b)/(v + b), so that an infinite one counts as 1.
 
 Friction is limited at all velocities up to one. On a resonance of a body friction stays reduced however fast the pull,
 and v_c is infinite; but a share of a per cent beside it all may be lost. So a design keeps off resonances, and where
@@ -40,6 +39,7 @@ from mdr.tools.summary import Row, Summarised, Summary
 
 DETUNED = 0.05  #: of the frequency, to either side, at which limits hold too where a body or a mass may swing
 LEAST_HARMONIC = 0.01  #: of the normal force, over its mean, that makes a resonance of a multiple of the frequency
+GUIDE = 0.01  #: of the way to where friction is not full any more, in the room: no run of full slip tells that way
 PARTS = (0.125, 0.25, 0.5, 1.0)  #: of the greatest velocity, at which friction and power are looked at
 
 
@@ -173,9 +173,9 @@ class Limit(NamedTuple):
 
 
 def _below_friction(answer: Answer, most: float) -> tuple[float, float]:
-    """Of full friction at most so much: by how far it is full, too, which tells the way to where it is not."""
+    """Room below the most; while it is searched for, full friction has a little less the farther it is full."""
     share, error = answer.share
-    return most / full_cof(answer.case) - share - answer.excess, error
+    return most / full_cof(answer.case) - share - (GUIDE * answer.excess if answer.is_quick else 0.0), error
 
 
 def _above_friction(answer: Answer, least: float) -> tuple[float, float]:
