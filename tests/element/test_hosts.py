@@ -48,7 +48,7 @@ def in_x(u):
 
 
 def test_in_jax():
-    jax = pytest.importorskip("jax", reason="jax, of the extra jax")
+    jax = pytest.importorskip("jax", reason="jax is not installed")
     hosts = recipe("jax")
     step = hosts.stepped(ELEMENT, DT)
     first = jax.jit(jax.grad(lambda u, state: step(u, state)[0][0]))
