@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from mdr.friction.tolerance import tolerance
     from mdr.studies import Quantity, Study, read_study
     from mdr.studies.many import ManyCofs, slide_many
+    from mdr.studies.propagate import propagate
     from mdr.studies.sweep import sweep
 
 #: modules of the names above that bring numba, which takes half a second to import: they wait until one is asked for
@@ -107,6 +108,7 @@ _LATER = {
     "mdr.studies": ("studies", "Quantity", "Study", "read_study"),
     "mdr.studies.sweep": ("sweep",),
     "mdr.studies.many": ("ManyCofs", "slide_many"),
+    "mdr.studies.propagate": ("propagate",),
 }
 
 __all__ = [
@@ -114,8 +116,8 @@ __all__ = [
     "RandomCof", "RigidPull", "SlideRecord", "SlidingContact", "SlidingRun", "Spectrum", "SpringArray", "SpringPull",
     "State", "Study", "Target", "blocked_cof", "cof_curve", "critical_velocity", "design", "displacement_of", "find",
     "fit", "front", "full_slip_critical_velocity", "half_space", "holding_band", "indent", "laws", "least_velocity",
-    "measure_critical_velocity", "no_load_velocity", "parse_case", "partial_slip", "plausibility", "random_cof",
-    "read_case", "read_creep", "read_force_curve", "read_friction_data", "read_moduli", "read_record",
+    "measure_critical_velocity", "no_load_velocity", "parse_case", "partial_slip", "plausibility", "propagate",
+    "random_cof", "read_case", "read_creep", "read_force_curve", "read_friction_data", "read_moduli", "read_record",
     "read_relaxation", "read_study", "register", "resolved", "rig", "sensitivity", "slide", "slide_many",
     "slide_record", "static_cof", "static_depth", "static_load", "surface_fields", "sweep", "tangential_loop",
     "tolerance", "verdict", "waveforms", "write_case",

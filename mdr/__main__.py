@@ -1,7 +1,7 @@
 """The command line: `mdr velocity`, `run`, `curve`, `half-space`, `measure`, `verdict`, `fit`, `find`, `design`,
-`front`, `tolerance`, `sensitivity`, `export` of a case file, `mdr record` of a recorded motion, `mdr indenter`, `mdr
-material` and `mdr motion` of what was measured, `mdr sweep` of a study file, `mdr explore` in the browser, `mdr shapes`
-and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
+`front`, `tolerance`, `sensitivity`, `propagate`, `export` of a case file, `mdr record` of a recorded motion, `mdr
+indenter`, `mdr material` and `mdr motion` of what was measured, `mdr sweep` of a study file, `mdr explore` in the
+browser, `mdr shapes` and `mdr case` to begin with, `mdr warm` to compile ahead, `mdr completion` for the shell.
 
 Installed as `mdr`, also `python -m mdr`. Exit status: 0 done; 1 a run failed, did not settle or found nothing;
 2 wrong input, or no command (the help is shown); 130 interrupted. Results go to standard output (with --json one JSON
@@ -62,6 +62,8 @@ COMMANDS = {
         "ask:tolerance", "friction and critical velocity as each input alone is a little less and more", SAID),
     "sensitivity": Command(
         "ask:sensitivity", "how many per cent friction and critical velocity move for each per cent of an input", SAID),
+    "propagate": Command(
+        "ask:propagate", "how sure friction and critical velocity are, by the standard deviations of inputs", SAID),
     "record": Command("record:record", "friction under a recorded motion, from a CSV file and a case file"),
     "indenter": Command(
         "tables:indenter", "a table [indenter] from measured heights, or force over depth, in a CSV file"),

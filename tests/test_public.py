@@ -90,6 +90,7 @@ SIGNATURES = {
     "least_velocity": "case, v_0",
     "tolerance": "case, v_0, by=0.1, fields=None, *, held=None",
     "sensitivity": "case, v_0=None, fields=None, *, held=None, accuracy=1e-05",
+    "propagate": "case, spread, v_0=None, *, held=None, samples=1000, seed=0, accuracy=1e-05",
     "sweep": 'case, axes, store=None, executor=None, quantities=("cof",), *, chunk_seconds=5.0, shard=None, '
     "n_springs=None, steps_per_period=None, accuracy=1e-05, held=None",
     "read_study": "path",
@@ -119,6 +120,7 @@ RECORDS = {
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "friction.find.Found": "path values why cases",
     "friction.sensitivity.Sensitivity": "v_0 inputs cof d_cof v_c d_v_c static_cof d_static_cof error why",
+    "studies.propagate.Propagated": "v_0 inputs spread cof cof_sd cof_share v_c v_c_sd v_c_share samples agrees why",
     "friction.tolerance.Tolerance": "by v_0 base_cof base_v_c inputs cof v_c warnings",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",

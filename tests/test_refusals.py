@@ -257,6 +257,11 @@ CALLS = [
         "accuracy": [(NAN, "finite"), (1e-9, "between 1e-08 and 0.001"), ("fine", "must be")],
         "fields": [("mu_0", "must be a list"), (3, "must be a list")],
         "held": [({"u_z0": 1}, "held takes load"), (3, "must be a dict")]}),
+    (mdr.propagate, {"case": CASE, "spread": {"mu_0": "5%"}, "v_0": 1e-4}, {
+        "v_0": [(one, "v_0") for one in (NAN, INF, "1e-4", True, [1e-4])],
+        "spread": [(3, "must be a dict such as"), ({}, "must be a dict"), (["mu_0"], "must be a dict")],
+        "samples": [*COUNT, (29, "at least 30")], "seed": [(-1, "at least 0"), (0.5, "whole number")],
+        "accuracy": [(NAN, "finite")], "held": [({"u_z0": 1}, "held takes load")]}),
     (mdr.partial_slip, {**PRESSED, "mu_0": 0.5, "u_z0": 1e-6, "u_x": 1e-7}, {
         "u_x": [*ARRAY, (-1e-7, "must not be negative")], "u_z0": ABOVE_ZERO}),
     (mdr.indent, {**PRESSED, "t": [0, 1], "u_z": [0, 1e-6]}, {
@@ -425,7 +430,8 @@ SAYINGS = {
     'fit(RIGID, SOME, ["omega_0/omega"])': "cannot be varied: omega_0/omega: RigidPull has no k_x",
     "fit(CASE, SOME, [])": "must name at least one",
     'fit(CASE, SOME, ["taw"])': "taw is no parameter of this case; did you mean tau?",
-    'fit(CASE, SOME, ["tau", "material.tau"])': "name one twice",
+    'fit(CASE, SOME, ["tau", "material.tau"])': "tau and material.tau set the same; keep one of the two",
+    'fit(CASE, SOME, ["nu", "mindlin_ratio"])': "nu and mindlin_ratio set the same; keep one of the two",
     'fit(CASE, SOME, ["mu_0", "tau", "R"])': "3 parameters need more than 3 measurements",
     'fit(CASE, ((0, 0.3),), ["mu_0"])': "must be FrictionData, as read_friction_data gives, got ((0, 0.3),)",
     'fit(CASE, SOME, ["mu_0"], confidence=95)': "confidence must lie between 0 and 1, got 95",
@@ -441,6 +447,26 @@ SAYINGS = {
     'find(CASE, "du_z", v_c=1e-3, within=(2, 1))': "within must be (low, high) with low < high, got 2 and 1",
     'find(replace(CASE, pull=replace(SLED, c_x=0)), "c_x", v_c=1e-3)': "pull.c_x is zero in this case: give the range",
     'tolerance(CASE, 1e-4, fields=["taw"])': "did you mean tau?",
+    'propagate(CASE, {"taw": 1})': "did you mean tau?",
+    "propagate(CASE, {1: 1})": "parameters must be names, got 1",
+    'propagate(CASE, {"v_0": "5%"})': "v_0 is no parameter of this case",
+    'propagate(CASE, {"mu_0": "5%", "friction.mu_0": 1})': "mu_0 and friction.mu_0 set the same; keep one of the two",
+    'propagate(CASE, {"load": 1, "u_z0": 1e-6})': "load and u_z0 set the same; keep one of the two",
+    **{
+        f'propagate(CASE, {{"mu_0": {one}}})': f"spread of mu_0 {words}"
+        for one, words in (
+            ("0", "must be positive, got 0.0 (a standard deviation, or per cent of the value, 0.5"),
+            ("-0.1", "must be positive, got -0.1"),
+            ("NAN", "must be a finite number"),
+            ("True", "must be a real number"),
+            ("None", "must be a real number"),
+            ("'5s'", "wants a pure number"),
+            ("'five'", "wants a pure number"),
+            ("'-5%'", "must be positive, got -0.025"),
+            ("'nan%'", "wants a pure number"),
+        )
+    },
+    'propagate(CASE, {"nu": 1e9})': "samples have a v_c, and 30 tell a standard deviation: 1000: nu must lie in",
     'sensitivity(CASE, fields=["taw"])': "did you mean tau?",
     "sensitivity(CASE, fields=[1])": "parameters must be names, got 1",
     'sensitivity(CASE, fields=["T", NAN])': "parameters must be names, got nan",

@@ -17,8 +17,9 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields, is_dataclass
+from itertools import combinations
 from typing import Any, NamedTuple
 
 from mdr.case.contact import KINDS, SlidingContact
@@ -94,11 +95,20 @@ VELOCITIES = {
         "-", "pulling velocity over the critical velocity of the case, Eq. (15)", label="pulling velocity $v_0/v_c$"
     )["facts"],
 }  #: of a run, not of a case
+STANDS_FOR = {"v_0/v_c": "v_0", "mindlin_ratio": "material.nu"}  #: what else sets one other
 
 
 def fields_set(path: str) -> tuple[str, ...]:
     """The fields, of which one or all are set by a path."""
     return SET[path].fields if path in (*RIG, *GROUPS) else (one_name(path),)
+
+
+def require_apart(paths: Sequence[str], names: Sequence[str] = ()) -> None:
+    """ValueError where two of these paths set the same; names: as they were given, of other words."""
+    sets = [set(fields_set(STANDS_FOR.get(path, path))) for path in paths]
+    for (one, its), (two, other) in combinations(zip(names or paths, sets, strict=True), 2):
+        if its & other:
+            raise ValueError(f"{one} and {two} set the same; keep one of the two")
 
 
 def one_name(path: str) -> str:

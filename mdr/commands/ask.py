@@ -1,4 +1,6 @@
-"""`mdr find`, `tolerance` and `sensitivity`: which value brings about a friction, and how much each input matters."""
+"""`mdr find`, `tolerance`, `sensitivity` and `propagate`: which value brings about a friction, how much each input
+matters, and how sure the answer is.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +10,23 @@ from itertools import zip_longest
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.commands.arguments import OF_MU_0, add_accuracy, add_velocity, plain_number, quantity, velocity
+from mdr.commands.arguments import (
+    OF_MU_0,
+    add_accuracy,
+    add_velocity,
+    plain_number,
+    quantity,
+    read_as,
+    velocity,
+    whole_number,
+)
 from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.find import searched_path
 from mdr.friction.inputs import OF_RUN
 from mdr.given.case_file import Said
 from mdr.march.result.run import power_text
+from mdr.studies.propagate import LEAST
 from mdr.tools.notation import value_in
 
 
@@ -94,8 +106,7 @@ def tolerance(args: argparse.Namespace, asked: Said) -> int:
 
 def add_options_of_sensitivity(command: argparse.ArgumentParser) -> None:
     """The velocity, the inputs, and the accuracy of the runs."""
-    pulled = "pulling velocity at which friction is asked for: 10mm/s, 0.5v_c (default: closed forms alone)"
-    command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
+    _add_velocity_of_friction(command)
     command.usage = "%(prog)s case.toml [--v-0 velocity] [options]"
     _add_fields(command)
     add_accuracy(command, "bound on the error of the COF, whose springs and steps are taken, over full friction")
@@ -109,6 +120,50 @@ def sensitivity(args: argparse.Namespace, asked: Said) -> int:
     names = ("cof", "d_cof", "v_c", "d_v_c", "static_cof", "d_static_cof")
     answer(args, picked(found, "v_0", "inputs", *names, "error", "why"), str(found), asked.case)
     return Exit.DONE
+
+
+def add_options_of_propagate(command: argparse.ArgumentParser) -> None:
+    """The velocity, the inputs with their standard deviations, the samples, and where to write."""
+    _add_velocity_of_friction(command)
+    command.usage = "%(prog)s case.toml [--v-0 velocity] --spread path=sd [path=sd ...] [options]"
+    of = "inputs with their standard deviations, in their unit or of their value: mu_0=5%% oscillation.du_z=0.1um"
+    read = read_as("path=standard deviation, such as mu_0=5%", _spread)
+    command.add_argument("--spread", metavar="path=sd", nargs="+", action="extend", type=read, required=True, help=of)
+    least, n = whole_number(LEAST), "cases that are drawn (default: 1000)"
+    command.add_argument("--samples", metavar="n", type=least, default=1000, help=n)
+    command.add_argument("--seed", metavar="n", type=whole_number(0), default=0, help="of the draws (default: 0)")
+    add_accuracy(command, "bound on the error of the COF of every run, over full friction")
+    add_output(command, "propagate.csv", "propagate.png", "propagate.svg")
+    command.epilog = (
+        "propagate.csv has a row for each sample; the figures are histograms, with the curve of the slopes."
+    )
+
+
+def propagate(args: argparse.Namespace, asked: Said) -> int:
+    """Draw, write and print; status 1 if samples are left out."""
+    make_folder(args)
+    with refusals():
+        v_0 = args.v_0 and args.v_0.on(asked.case)
+        drawn = {"samples": args.samples, "seed": args.seed, "accuracy": args.accuracy}
+        found = mdr.propagate(asked.case, dict(args.spread), v_0, held=asked.held, **drawn)
+    names = ("v_0", "inputs", "spread", "cof", "cof_sd", "cof_share", "v_c", "v_c_sd", "v_c_share", "agrees", "why")
+    told = ("mean", "sd", "low", "high", "error", "left_out")
+    samples = {name: picked(one, *told) for name, one in found.samples.items()}
+    answer(args, {**picked(found, *names), "samples": samples}, str(found), asked.case)
+    write_found(args, found.plot, found.table(), str(found))
+    return Exit.FAILED if any(one.left_out for one in found.samples.values()) else Exit.DONE
+
+
+def _spread(text: str) -> tuple[str, str]:
+    path, _, sd = text.partition("=")
+    if not sd:
+        raise ValueError
+    return path, sd
+
+
+def _add_velocity_of_friction(command: argparse.ArgumentParser) -> None:
+    pulled = "pulling velocity at which friction is asked for: 10mm/s, 0.5v_c (default: closed forms alone)"
+    command.add_argument("--v-0", metavar="velocity", type=velocity, help=pulled)
 
 
 def _add_fields(command: argparse.ArgumentParser) -> None:

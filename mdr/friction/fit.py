@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
+from mdr.case.paths import require_apart
 from mdr.closed_forms.shaken_pull import CLOSED_FORM
 from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
 from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
@@ -209,13 +210,12 @@ def _parameters(case: SlidingContact, names: Any, bounds: Any, held: Mapping[str
     if not isinstance(bounds, Mapping):
         raise TypeError(f'bounds must be a dict, {{"{names[0]}": (low, high)}}, got {short(repr(bounds))}')
     paths = [path_of(case, name) for name in names]
+    require_apart(paths, names)
     kept = still_held(held, paths)
     free = tuple(
         Parameter.of(case, name, bounds.get(name, bounds.get(path)), kept)
         for name, path in zip(names, paths, strict=True)
     )
-    if len(set(paths)) < len(paths):
-        raise ValueError(f"parameters name one twice: {', '.join(names)}")
     if strange := [name for name in bounds if name not in (*names, *paths)]:
         raise ValueError(f"bounds: {short(str(strange[0]))} is not fitted; the parameters are {', '.join(names)}")
     return free

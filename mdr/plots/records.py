@@ -1,4 +1,5 @@
-"""Figures of recorded and of random motion, and of a tolerance: how far each input alone moves friction and v_c.
+"""Figures of recorded and of random motion; of a tolerance: how far each input alone moves friction and v_c; of samples
+of both, where inputs have a standard deviation.
 
 Records are read by attribute only.
 """
@@ -127,3 +128,48 @@ def plot_front(found: Any) -> Figure:
         axes[-1].set_xlabel(f"greatest friction up to {shown(found.up_to, 'm/s')}")
         fig.align_ylabels()
     return fig
+
+
+def plot_propagated(found: Any, ax: Axes | None = None) -> Axes:
+    """Draw samples of friction and v_c as histograms, each with the normal curve of the slopes.
+
+    Parameters
+    ----------
+    found : Propagated
+        What `propagate` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw friction alone, or v_c where there is none. None makes a new figure with a panel for each.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where the first was drawn.
+    """
+    names = {"cof": (r"coefficient of friction $\mu$", ""), "v_c": ("critical velocity $v_c$", "m/s")}
+    with style():
+        n = len(found.samples)
+        panels = subplots(1, n, figsize=(4.4 * n, 3.6), squeeze=False)[1].flat if ax is None else [ax]
+        for panel, (name, samples) in zip(panels, found.samples.items(), strict=False):
+            what, unit = names[name]
+            values = samples.known[np.isfinite(samples.known)]
+            factor, symbol = prefix(values, unit) if unit else (1.0, "")
+            _histogram(panel, factor * values, factor * getattr(found, name), getattr(found, f"{name}_sd"), factor)
+            panel.set(xlabel=f"{what} [{symbol}]" if symbol else what, ylabel="samples")
+            ax = ax or panel
+        assert ax is not None
+        ax.legend()
+    return ax
+
+
+def _histogram(ax: Axes, values: Any, centre: float, sd: float | None, factor: float) -> None:
+    """Samples, and how many of them a normal distribution has there; without a spread a line where it is."""
+    _, edges, _ = ax.hist(values, bins=round(np.sqrt(values.size)), color=COLOURS[4], label="samples")
+    most = ax.get_ylim()
+    if sd and np.isfinite(centre):
+        x = np.linspace(-4, 4, 201)
+        bell = np.exp(-(x**2) / 2) / (np.sqrt(2 * np.pi) * factor * sd)
+        ax.plot(centre + factor * sd * x, values.size * (edges[1] - edges[0]) * bell, color=COLOURS[0], label="slopes")
+    elif np.isfinite(centre):
+        ax.axvline(centre, color=COLOURS[0], label="the case")
+    ax.set_ylim(most)
+    ax.locator_params(axis="x", nbins=5)

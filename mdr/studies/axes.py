@@ -23,13 +23,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Any
 
 import numpy as np
 
 from mdr.case.contact import KINDS, SlidingContact
-from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_at, fields_set, set_in, slot_of
+from mdr.case.paths import GROUPS, RIG, VELOCITIES, facts_at, fields_at, fields_set, require_apart, set_in, slot_of
 from mdr.tools.arrays import Array
 from mdr.tools.checks import finite_array
 from mdr.tools.messages import nearest, one_line, short
@@ -122,9 +121,7 @@ def read_axes(case: SlidingContact, axes: Mapping[str, Any]) -> tuple[Axis, ...]
     for path in axes:
         if not isinstance(path, str):
             raise TypeError(f"axes must have paths in quotes for keys, got {path!r}")
-    for one, two in combinations(axes, 2):
-        if {one, two} == set(VELOCITIES) or set(fields_set(one)) & set(fields_set(two)):
-            raise ValueError(f"{one} and {two} set the same; keep one of the two")
+    require_apart(list(axes))
     own = {slot: () if getattr(case, slot) is None else (getattr(case, slot),) for slot in KINDS}
     parts = own | {slot: _records(slot, axes[slot]) for slot in KINDS if slot in axes}
     for path in axes:

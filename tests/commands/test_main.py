@@ -435,6 +435,11 @@ WRONG = [
     ("sensitivity {punch} --fields lode", "lode"),
     ("sensitivity {punch} --v-0 10s", "--v-0"),
     ("sensitivity {punch} --v-0 -1e-4", "the same both ways"),
+    ("propagate {punch}", "the following arguments are required: --spread"),
+    *((f"propagate {{punch}} --spread {one}", f"must be path=standard deviation, such as mu_0=5%, got '{one}'")
+      for one in ("mu_0", "mu_0=")),
+    ("propagate {punch} --spread mu_0=5s", "spread of mu_0 wants a pure number"),
+    ("propagate {punch} --spread mu_0=5% --samples 3", "a whole number from 30"),
     *((f"explore --address {one}", "must be localhost:8080") for one in ("8080:", "ftp://x", "http://",
       "localhost:99999")),
     ("explore {data}", "mdr: data.csv: line 1: "),

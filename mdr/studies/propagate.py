@@ -1,0 +1,339 @@
+"""propagate(): how sure friction and critical velocity are, where inputs are known with a standard deviation.
+
+Two answers side by side. By slopes: with the derivatives d_i of `sensitivity` and standard deviations s_i of inputs
+that vary apart, the variance is the sum of (d_i s_i)², of which each input has its share. By samples: the inputs are
+drawn, normal and seeded, and each draw is a case of its own. They are compared, mean and standard deviation, within
+the statistical error of so many samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mdr.case.contact import SlidingContact, as_given
+from mdr.case.paths import facts_at, require_apart
+from mdr.closed_forms.critical_velocity import critical_velocity
+from mdr.friction.fit import ERRORS
+from mdr.friction.free_parameters import case_of
+from mdr.friction.inputs import OF_RUN, Inputs
+from mdr.friction.sensitivity import LABELS, Sensitivity, sensitivity
+from mdr.given.vary import still_held
+from mdr.march.periodic.steady import BUDGET
+from mdr.plots.figures import Axes
+from mdr.studies.many import slide_many
+from mdr.studies.points import OF_THE_POINT, reason_of
+from mdr.tools.arrays import EXACT, Array
+from mdr.tools.checks import count, finite, positive
+from mdr.tools.csv_table import Tabled, csv_text
+from mdr.tools.keywords import offering
+from mdr.tools.messages import most_frequent, short
+from mdr.tools.notation import parted, shown, value_in
+from mdr.tools.progress import progress
+from mdr.tools.records import ArrayRecord
+from mdr.tools.summary import Summarised, Summary
+
+LEAST = 30  #: samples that tell a standard deviation, to an eighth of it
+MIDDLE = (0.025, 0.975)  #: quantiles between which 95 % of the samples lie
+UNITS = {"cof": "-", "v_c": "m/s"}  #: of what is asked for
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Samples(ArrayRecord):
+    """A quantity of n samples."""
+
+    values: Array  #: (n,), NaN of a sample that has none
+    mean: float  #: of those that have one
+    sd: float  #: their standard deviation
+    low: float  #: quantile of 2.5 %
+    high: float  #: quantile of 97.5 %
+    error: float  #: numerical error of a value, on average
+    left_out: tuple[str, ...]  #: how many have none, and why
+
+    @property
+    def known(self) -> Array:
+        """The values of those that have one."""
+        return np.asarray(self.values[~np.isnan(self.values)])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Propagated(Summarised, Tabled, ArrayRecord):
+    """Friction and critical velocity with standard deviations; dictionaries by the path of an input, or by "cof" and
+    "v_c". Of friction there is nothing where no velocity was given.
+    """
+
+    v_0: float | None  #: pulling velocity [m/s]
+    inputs: Mapping[str, float]  #: their values [SI]
+    spread: Mapping[str, float]  #: their standard deviations [SI]
+    cof: float | None  #: coefficient of friction of the case [-]
+    cof_sd: float | None  #: its standard deviation [-] by slopes; None where a slope is not there
+    cof_share: Mapping[str, float]  #: of each input in the variance of `cof` by slopes [-]
+    v_c: float  #: critical velocity of the case [m/s]
+    v_c_sd: float | None  #: its standard deviation [m/s] by slopes; None where a slope is not there
+    v_c_share: Mapping[str, float]  #: of each input in the variance of `v_c` by slopes [-]
+    drawn: Array  #: inputs of the samples [SI], (n, k), in the order of `spread`
+    #: of "cof" and "v_c": values (n,), NaN of a sample without; their mean, sd, low and high, between which 95 % lie;
+    #: error, of the runs; left_out, how many have none, and why
+    samples: Mapping[str, Samples]
+    agrees: Mapping[str, bool | None]  #: whether slopes and samples do; None without slopes
+    why: Mapping[str, str]  #: why not; "" where they agree
+
+    def _summary(self) -> Summary:
+        rows = []
+        for name, known in self.samples.items():
+            value, sd, unit = getattr(self, name), getattr(self, f"{name}_sd"), UNITS[name]
+            told = shown(value, unit) if sd is None else f"{shown(value, unit)} +- {shown(sd, unit, 3)}"
+            rows.append((LABELS[name], told, "by slopes" if sd is not None else "of the case"))
+            mean = f"{shown(known.mean, unit)} +- {shown(known.sd, unit, 3)}"
+            ends = f"{shown(known.low, unit, 4)} to {shown(known.high, unit, 4)}"
+            rows.append(("", mean, f"{known.known.size} samples, 95 % from {ends}"))
+        for path, sd in self.spread.items():
+            shares = {LABELS[name]: getattr(self, f"{name}_share").get(path) for name in self.samples}
+            told = ", ".join(f"{label} {share:.1%}" for label, share in shares.items() if share is not None)
+            unit = facts_at(path).unit
+            rows.append((path, f"{shown(self.inputs[path], unit)} +- {shown(sd, unit, 3)}", told and f"share: {told}"))
+        rows += [("warning", f"of {LABELS[name]}: {why}", "") for name, why in self.why.items() if why]
+        reasons = [(one, LABELS[name]) for name, known in self.samples.items() for one in known.left_out]
+        for why in dict.fromkeys(one for one, _ in reasons):
+            rows.append(("left out", f"of {' and '.join(label for one, label in reasons if one == why)}, {why}", ""))
+        where = "" if self.v_0 is None else f", at v_0 = {shown(self.v_0, 'm/s')}"
+        return Summary(f"Propagated: values with their standard deviations{where}", rows)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the samples as a histogram, and the normal curve that the slopes make of them.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw friction alone, or v_c where there is none. None makes a new figure with a panel for each.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where friction was drawn.
+        """
+        from mdr.plots.records import plot_propagated
+
+        return plot_propagated(self, ax)
+
+    def table(self) -> str:
+        """A row for each sample as CSV: its inputs, friction and critical velocity, NaN where it has none.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes.
+        """
+        inputs = zip(self.spread, self.drawn.T, strict=True)
+        columns = {f"{path} [{facts_at(path).unit}]": values for path, values in inputs}
+        return csv_text(columns | {f"{name} [{UNITS[name]}]": one.values for name, one in self.samples.items()})
+
+
+@offering
+def propagate(
+    case: SlidingContact,
+    spread: Mapping[str, float | str],
+    v_0: float | None = None,
+    *,
+    held: Mapping[str, Any] | None = None,
+    samples: int = 1000,
+    seed: int = 0,
+    accuracy: float = BUDGET,
+) -> Propagated:
+    """Standard deviations of friction [-] and critical velocity [m/s] from those of inputs.
+
+    Parameters
+    ----------
+    case : SlidingContact
+        The contact, with the mean of each input.
+    spread : mapping of str to float or str
+        Standard deviation of each input, by its path as in `find`, or "v_0": a number in SI, a text with a unit
+        ("0.1um"), or per cent of the value of the input ("5%"). Inputs vary apart, each by a normal distribution.
+    v_0 : float, optional
+        Pulling velocity [m/s]. None leaves friction out: v_c alone, without a run.
+    held : mapping of str to float, optional
+        "load" [N], "frequency" [Hz] or "tan_delta" [-] that the case was made from, as in `tolerance`: they hold while
+        inputs vary, unless an input sets the same.
+    samples : int
+        How many cases are drawn, 30 or more. The standard deviation of n samples is known to 1/sqrt(2 n) of it.
+    seed : int
+        Of the draws, zero or above. The same seed gives the same samples.
+    accuracy : float
+        Bound on the error of `cof` over mu_0 [-] of every run, as in `slide`.
+
+    Returns
+    -------
+    Propagated
+        Standard deviations by slopes, the share of each input, and the samples beside them.
+
+    Raises
+    ------
+    ValueError
+        For what is no number of the case, a spread that is not positive, inputs that set the same, where friction of
+        the case does not settle, and where hardly a sample can be.
+    TypeError
+        For a case that is no SlidingContact, and for a spread that is no dict.
+
+    Notes
+    -----
+    Slopes know the case alone. Where friction bends over the spread, as it does where v_c lies within it, the samples
+    have another mean and another standard deviation. `agrees` says whether these differ by more than three of the
+    standard errors of so many samples, and `why` says how. An input without a slope, as mu_s where friction jumps,
+    leaves the samples alone.
+
+    A sample that the case cannot have, such as nu = 0.51, is left out. So is one that does not settle. `left_out` of
+    the samples counts them: the rest is no normal distribution any more.
+
+    Examples
+    --------
+    >>> import mdr
+    >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
+    >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.4)
+    >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
+    >>> found = mdr.propagate(case, {"mu_0": "3%", "oscillation.du_z": "0.08um"}, 1e-4)
+    >>> print(f"{found.v_c_sd / found.v_c:.3f}, of mu_0 {found.v_c_share['mu_0']:.2f}")
+    0.050, of mu_0 0.36
+    >>> print(f"{found.cof:.3f} +- {found.cof_sd:.3f}", found.agrees["cof"])
+    0.368 +- 0.010 True
+    """
+    case = as_given(case)
+    if not isinstance(spread, Mapping) or not spread:
+        raise TypeError(f'spread must be a dict such as {{"mu_0": "5%"}}, got {short(repr(spread))}')
+    n, seed = count("samples", samples, LEAST), count("seed", seed, 0)
+    kept = still_held(held or {}, ())
+    of = Inputs(case_of(case, kept), None if v_0 is None else finite("v_0", v_0), kept)
+    paths = of.asked(spread)
+    require_apart(paths, list(spread))
+    deviations = {path: _deviation(of, path, given) for path, given in zip(paths, spread.values(), strict=True)}
+    kept = still_held(kept, paths)
+    slopes = sensitivity(of.case, v_0, paths, held=kept, accuracy=accuracy)
+    draws = np.random.default_rng(seed).standard_normal((n, len(paths)))
+    drawn = np.array([*slopes.inputs.values()]) + draws * [*deviations.values()]
+    pulls = drawn[:, paths.index(OF_RUN)] if OF_RUN in paths else np.full(n, np.nan if v_0 is None else v_0)
+    found = _samples(of, kept, [dict(zip(paths, one, strict=True)) for one in drawn.tolist()], pulls, accuracy)
+    by_slopes = {name: _by_slopes(slopes, name, deviations) for name in UNITS}
+    faster = int(np.sum(pulls > found["v_c"].values))
+    why = {name: _apart(name, getattr(slopes, name), by_slopes[name], one, faster) for name, one in found.items()}
+    return Propagated(
+        v_0=of.v_0,
+        inputs=slopes.inputs,
+        spread=deviations,
+        cof=slopes.cof,
+        cof_sd=by_slopes["cof"].sd if "cof" in found else None,
+        cof_share=by_slopes["cof"].shares if "cof" in found else {},
+        v_c=slopes.v_c,
+        v_c_sd=by_slopes["v_c"].sd,
+        v_c_share=by_slopes["v_c"].shares,
+        drawn=drawn,
+        samples=found,
+        agrees={name: None if by_slopes[name].sd is None else not why[name] for name in found},
+        why=why,
+    )
+
+
+def _deviation(of: Inputs, path: str, given: Any) -> float:
+    """The standard deviation [SI] of an input; per cent are of its value."""
+    name, unit, value = f"spread of {path}", facts_at(path).unit, of.value(path)
+    if isinstance(given, str):
+        is_share = parted(given)[1] == "%"
+        given = value_in(name, given, "-") * abs(value) if is_share else value_in(name, given, unit)
+    known = shown(value, unit)
+    return positive(name, given, f"a standard deviation, or per cent of the value, {known}; leave out what is exact")
+
+
+def _samples(
+    of: Inputs, kept: Mapping[str, Any], drawn: list[dict[str, float]], pulls: Array, accuracy: float
+) -> dict[str, Samples]:
+    """What is asked for of each draw, at its velocity."""
+    cases: list[SlidingContact] = []
+    values = {name: np.full(len(drawn), np.nan) for name in (*(() if of.v_0 is None else ("cof",)), "v_c")}
+    whys = {name: [""] * len(drawn) for name in values}
+    places = []
+    for i, settings in enumerate(progress(drawn, "propagate", "cases")):
+        try:
+            one = case_of(of.case, {**kept, **{path: x for path, x in settings.items() if path != OF_RUN}})
+            values["v_c"][i] = critical_velocity(one)
+        except OF_THE_POINT as refusal:
+            for why in whys.values():
+                why[i] = reason_of(refusal)
+        else:
+            places.append(i)
+            cases.append(one)
+    errors = {"v_c": EXACT * np.abs(values["v_c"])}
+    if "cof" in values and cases:
+        found = slide_many(cases, pulls[places], accuracy=accuracy)
+        values["cof"][places], errors["cof"] = np.where(found.settled, found.cof, np.nan), found.cof_error
+        for i, ends, told in zip(places, found.settled.tolist(), found.why, strict=True):
+            whys["cof"][i] = "" if ends else told
+    return {name: _statistics(name, one, whys[name], errors[name]) for name, one in values.items()}
+
+
+def _statistics(name: str, values: Array, whys: list[str], errors: Array) -> Samples:
+    """Mean, standard deviation and quantiles of the samples that have a value; infinite ones have quantiles alone."""
+    known, left_out = values[~np.isnan(values)], tuple(most_frequent(whys))
+    if known.size < LEAST:
+        raise ValueError(
+            f"spread: {known.size} of {values.size} samples have a {LABELS[name]}, and {LEAST} tell a standard "
+            f"deviation: {'; '.join(left_out)}; give a smaller spread"
+        )
+    is_finite = bool(np.isfinite(known).all())
+    mean, sd = (float(np.mean(known)), float(np.std(known, ddof=1))) if is_finite else (np.inf, np.inf)
+    low, high = np.quantile(known, MIDDLE, method="inverted_cdf").tolist()
+    return Samples(values, mean, sd, low, high, float(np.nanmean(errors)), left_out)
+
+
+class _BySlopes(NamedTuple):
+    """What derivatives make of the standard deviations of inputs."""
+
+    sd: float | None  #: None where a slope is not there
+    shares: Mapping[str, float]
+    error: float  #: of the standard deviation
+    why: str  #: why there is no slope
+
+
+def _by_slopes(slopes: Sensitivity, name: str, deviations: Mapping[str, float]) -> _BySlopes:
+    """The standard deviation of a quantity; an input that it does not know has no part in it."""
+    if why := slopes.why[name]:
+        return _BySlopes(None, {}, 0.0, f"the samples stand alone, as there is no slope at {next(iter(why.values()))}")
+    d, errors = getattr(slopes, f"d_{name}"), slopes.error[name]
+    parts = {path: slope * deviations[path] for path, slope in d.items()}
+    total = float(np.linalg.norm([*parts.values()]))
+    shares = {path: (part / total) ** 2 if total else 0.0 for path, part in parts.items()}
+    return _BySlopes(total, shares, sum(errors[path] * deviations[path] for path in d), "")
+
+
+def _apart(name: str, value: float, by: _BySlopes, found: Samples, faster: int) -> str:
+    """Where slopes and samples are apart by more than the errors of both, and why; "" where they agree."""
+    if by.sd is None:
+        return by.why
+    known = found.known
+    of_mean, of_sd = found.sd / np.sqrt(known.size), _error_of_sd(known)
+    told = [
+        f"{shown(other, UNITS[name], 6)} {whose} is {shown(one, UNITS[name], 6)} in the samples, "
+        f"to {shown(error, UNITS[name], 2)}"
+        for whose, other, one, error, rest in (
+            ("of the case", value, found.mean, of_mean, found.error),
+            ("standard deviation by slopes", by.sd, found.sd, of_sd, found.error + by.error),
+        )
+        if not abs(one - other) <= ERRORS * error + rest
+    ]
+    if not told:
+        return ""
+    n = found.values.size
+    is_split = name == "cof" and 0 < faster < n
+    bends = (
+        f"v_c lies within the spread, and {faster} of {n} samples are pulled faster"
+        if is_split
+        else "it bends over the spread"
+    )
+    return f"{'; '.join(told)}: {bends}; trust the samples"
+
+
+def _error_of_sd(known: Array) -> float:
+    """Standard error of the standard deviation of such samples, by their fourth moment."""
+    off = known - known.mean()
+    square = float(np.mean(off**2))
+    return float(np.sqrt((np.mean(off**4) - square**2) / (4 * known.size * square))) if square else 0.0
