@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mdr.case.contact import SlidingContact, as_given
-from mdr.case.paths import facts_at, require_apart
+from mdr.case.paths import RIG, facts_at, require_apart
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.fit import ERRORS
 from mdr.friction.free_parameters import case_of
@@ -208,8 +208,11 @@ def propagate(
     paths = of.asked(spread)
     require_apart(paths, list(spread))
     deviations = {path: _deviation(of, path, given) for path, given in zip(paths, spread.values(), strict=True)}
+    # what a rig is set to holds while other inputs vary, in the slopes as in the samples
+    slopes = sensitivity(
+        of.case, v_0, paths, held={**kept, **{path: of.value(path) for path in paths if path in RIG}}, accuracy=accuracy
+    )
     kept = still_held(kept, paths)
-    slopes = sensitivity(of.case, v_0, paths, held=kept, accuracy=accuracy)
     draws = np.random.default_rng(seed).standard_normal((n, len(paths)))
     drawn = np.array([*slopes.inputs.values()]) + draws * [*deviations.values()]
     pulls = drawn[:, paths.index(OF_RUN)] if OF_RUN in paths else np.full(n, np.nan if v_0 is None else v_0)

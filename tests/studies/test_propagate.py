@@ -39,6 +39,16 @@ def test_a_spread_is_said_in_si_with_a_unit_or_in_per_cent():
     assert mdr.propagate(CONE, {"mu_0": "0.02"}, samples=30).spread == {"mu_0": 0.02}
 
 
+def test_a_load_holds_as_others_vary_in_the_slopes_too():
+    """A softer cone sinks deeper under its load: modulus and load each have their part, as if the other were exact."""
+    load = mdr.static_load(CONE.indenter, CONE.material, CONE.oscillation.u_z0)
+    alone = [mdr.propagate(CONE, {one: "4%"}, 0.5 * V_C, held={"load": load}) for one in ("E", "load")]
+    both = mdr.propagate(CONE, {"E": "4%", "load": "4%"}, 0.5 * V_C, held={"load": load})
+    assert_allclose(both.cof_sd, np.hypot(*(one.cof_sd for one in alone)), rtol=1e-6)
+    assert both.cof_share == pytest.approx({"material.E": 0.5, "load": 0.5}, rel=1e-3)  # depth goes with load over E
+    assert both.agrees["cof"]
+
+
 def test_each_sample_is_a_case_of_its_own():
     spread = {"mu_0": "3%", "pull.m": "5%", "v_0": "2%"}
     v_0 = 0.5 * mdr.critical_velocity(BODY)
