@@ -241,6 +241,21 @@ def test_elasticities_are_greatest_where_contact_is_just_kept_and_then_those_of_
     assert_allclose(amplitude[0, 0], -unit * (lag - 0.05 * slope) / (1 - unit * lag), rtol=0.1)  # alpha = 0.1
 
 
+def test_half_the_friction_of_a_pad_takes_a_fifth_of_the_power_and_no_room():
+    s = script("quiet_slide")
+    for found in (s.roomy, s.sparing):
+        run = mdr.slide(found.case, s.up_to)
+        assert found.met
+        assert_allclose(run.cof, found.reached["cof_at_most"], atol=1e-5)
+        assert_allclose(run.power["normal"], found.power, rtol=1e-6)
+    assert s.sparing.power < 0.25 * s.roomy.power
+    assert s.sparing.values["frequency"] < 0.5 * s.roomy.values["frequency"]
+    frequency = [one.values["frequency"] for one in s.front.designs]
+    assert np.ptp(s.front.power / np.square(frequency)) < 0.01 * s.front.power[0] / frequency[0] ** 2
+    assert s.met(s.known["most room"]) > 0.9
+    assert abs(s.met(s.known["least power"]) - 0.5) < 0.1
+
+
 def test_gallery_shapes_are_equally_stiff_and_lose_by_what_they_carry():
     s = script("gallery")
     share = {"flat punch": 1, "cone": 1 / 2, "paraboloid": 2 / 3, "power law $r^4$": 4 / 5, "from force": 1 / 1.7}
