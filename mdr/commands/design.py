@@ -5,10 +5,13 @@ from __future__ import annotations
 import argparse
 
 import mdr
+from mdr.case.paths import RIG
 from mdr.commands.arguments import OF_MU_0, add_limit, quantity, read_as, velocity, whole_number
 from mdr.commands.output import answer, picked, refusals, status_of, stopped_by_signals
 from mdr.commands.written import add_output, make_folder, write_found, write_text
+from mdr.files.case_files import written
 from mdr.given.case_file import Said
+from mdr.given.vary import still_held
 
 #: options, the limits that they are, what they read, and what they say
 LIMITS = {
@@ -32,9 +35,9 @@ def _range(text: str) -> tuple[str, tuple[str, str]]:
 
 def _add_free(command: argparse.ArgumentParser) -> None:
     """The numbers that may change, and the end of the search."""
-    known = "number that may change, and its range, as du_z=0.1um:2um; once for each"
+    known = "numbers that may change, each with its range, such as du_z=0.1um:2um frequency=100Hz:20kHz"
     read = read_as("path=low:high, such as du_z=0.1um:2um", _range)
-    command.add_argument("--free", metavar="path=low:high", action="append", required=True, type=read, help=known)
+    command.add_argument("--free", metavar="path=low:high", action="extend", nargs="+", required=True, type=read, help=known)
     add_limit(command, "designs")
 
 
@@ -42,7 +45,7 @@ def add_options_of_design(command: argparse.ArgumentParser) -> None:
     """The limits, the ranges, and where to write."""
     for option, (name, read, metavar, meaning) in LIMITS.items():
         command.add_argument(option, dest=name, metavar=metavar, type=read, help=meaning)
-    command.usage = "%(prog)s case.toml --free path=low:high [--free ...] [--cof friction --up-to velocity] [options]"
+    command.usage = "%(prog)s case.toml --free path=low:high [...] [--cof friction --up-to velocity] [options]"
     command.add_argument(
         "--least-power", action="store_true", help="the least power that meets the target, not the most room"
     )
@@ -62,7 +65,9 @@ def design(args: argparse.Namespace, asked: Said) -> int:
     names = ("met", "values", "ranges", "reached", "room", "active", "power", "why", "stopped")
     answer(args, {"target": limits, **picked(found, *names)}, str(found), found.case)
     if args.output is not None:
-        write_text(args, args.output / "design.toml", mdr.write_case(found.case))
+        set_to = {path: value for path, value in found.values.items() if path in RIG}
+        kept = {**still_held(asked.held, found.values), **set_to}
+        write_text(args, args.output / "design.toml", written(found.case, kept))
         write_text(args, args.output / "design.txt", f"{found}\n")
     return status_of(found.stopped, found.met)
 
@@ -72,7 +77,7 @@ def add_options_of_front(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--up-to", metavar="velocity", required=True, type=velocity, help="velocity up to which friction holds: 5mm/s"
     )
-    command.usage = "%(prog)s case.toml --up-to velocity --free path=low:high [--free ...] [options]"
+    command.usage = "%(prog)s case.toml --up-to velocity --free path=low:high [...] [options]"
     command.add_argument("-n", metavar="n", type=whole_number(2), default=8, help="how many designs (default: 8)")
     _add_free(command)
     add_output(command, "front.csv", "front.png", "front.svg")

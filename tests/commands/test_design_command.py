@@ -40,7 +40,9 @@ def test_design(capsys, rubber, tmp_path):
     assert answer["values"] == pytest.approx(found.values)
     assert answer["target"] == pytest.approx({"cof_at_most": 0.32, "up_to": 2e-4})
     assert answer["active"] == list(found.active)
-    assert mdr.read_case(folder / "design.toml").oscillation.du_z == pytest.approx(8e-6)
+    written = read_said(folder / "design.toml")
+    assert written.case.oscillation.du_z == pytest.approx(8e-6)
+    assert written.held["load"] == said.held["load"]
     assert {path.name for path in folder.iterdir()} == {"design.toml", "design.txt"}
     assert "the target is met" in words_of(capsys, [*asked, "--least-power"]).out
     far = ["design", rubber, "--v-c", "10m/s", "--free", "du_z=1um:8um", "--free", "frequency=10Hz:50Hz"]
