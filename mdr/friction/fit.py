@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -35,6 +34,8 @@ from mdr.tools.summary import Printed
 
 WORTH = 0.1  #: of the error of a measurement, which runs are to keep to
 LEAST_GRID = 16  #: springs, or steps of a period, of a run that is worth anything
+ROUGHLY, CLOSELY = 1e-2, 1e-5  #: share of chi squared that a step lowers it by where a search ends
+LEAST_STEP = 1e-7  #: on the scale of the search
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
 
@@ -259,36 +260,91 @@ class _Model:
         self.best: _Best | None = None
         self.jac = np.zeros((data.v_0.size, len(free)))  #: (n, k), the last that was made
         self.cof_error, self.size = 0.0, (0, 0)
+        self._known: dict[tuple[Any, ...], Array] = {}  #: what is left, by size and coordinates
+        self._differences_at: list[float] = []  #: coordinates at which `jac` is by differences
         self._ticker = Ticker("fit", parts="curves")
 
     def search(self) -> None:
         """The best fit, by runs as coarse as the data allow."""
-        from scipy.optimize import least_squares
-
-        low, high = np.transpose([one.ends for one in self.free])
         x = np.array([one.first for one in self.free])
         first = resolved(self.case)
         most = default_springs(first), default_steps(first)
         shares = (1,) if first in CLOSED_FORM else (4, 2, 1)
         sizes = list(dict.fromkeys((max(most[0] // k, LEAST_GRID), max(most[1] // k, LEAST_GRID)) for k in shares))
         for size, finer in zip(sizes, [*sizes[1:], None], strict=True):
-            self.size, self._at = size, lru_cache(maxsize=2)(self._deviations)  # the same of all, or curves would jump
+            self.size = size  # the same of all curves, or they would jump
             try:
-                found = least_squares(self.left, x, self.slopes, (low, high), x_scale="jac", xtol=1e-7, ftol=1e-5)
+                x = self._descended(x, ROUGHLY)
             except ValueError:
                 if finer is None:
                     raise
                 continue  # a brief contact that so few steps do not see
-            x = found.x
-            if finer is None:
-                return
-            off = np.abs(self._cof(x, finer) - self._cof(x, size))
-            self.cof_error = float(off.max())
-            spare = found.fun.size - x.size
-            scatter = np.sqrt(found.fun @ found.fun / spare) if self.data.error is None else self.error
-            if np.all(off <= WORTH * scatter):
-                return
-            self.cof_error /= 3  # of the finer runs, at second order
+            if finer is None or self._is_fine_enough(x, finer):
+                break
+        self._descended(x, CLOSELY)
+
+    def _descended(self, x: Array, enough: float) -> Array:
+        """Where a step lowers chi squared by no more than a share that is enough, by Gauss and Newton in a trust region.
+
+        A step keeps within the ends and a box, at first of a factor of e, or of a unit. Derivatives are by differences
+        at first, closely at the end, and where they promised too much; else those of the point before, to which the way
+        from there is added (Broyden, Mathematics of Computation 19 (1965) 577).
+        """
+        left, reach = self.left(x), 1.0
+        if not self.jac.any():
+            self._take_differences(x)
+        while True:
+            is_here = self._differences_at == x.tolist()
+            step, promised = self._step(x, left, np.inf)
+            is_end = promised <= enough * (left @ left) or reach < LEAST_STEP or np.abs(step).max() < LEAST_STEP
+            if is_end and enough == ROUGHLY:
+                return x
+            if is_end and not is_here:
+                self._take_differences(x)
+                continue
+            if np.abs(step).max() > reach:
+                step, promised = self._step(x, left, reach)
+            size = float(np.abs(step).max())
+            try:
+                there = self.left(x + step)
+            except ValueError:  # no case is there
+                reach = size / 4
+                if reach < LEAST_STEP:
+                    raise
+                continue
+            gain = (left @ left - there @ there) / promised if promised > 0 else 0.0
+            if gain > 0:
+                self.jac = self.jac + np.outer(there - left - self.jac @ step, step) / (step @ step)
+                x, left = x + step, there
+            if is_end:
+                return x
+            if gain > 0.75:
+                reach = max(reach, 2 * size)
+            elif gain < 0.25 and is_here:
+                reach = size / 4
+            elif gain < 0.25:
+                self._take_differences(x)
+
+    def _step(self, x: Array, left: Array, reach: float) -> tuple[Array, float]:
+        """The step within the ends, and a box, that lowers chi squared most where curves are straight; by how much."""
+        from scipy.optimize import lsq_linear
+
+        low, high = np.transpose([one.ends for one in self.free])
+        within = np.maximum(low - x, -reach), np.minimum(high - x, reach)
+        step = np.clip(lsq_linear(self.jac, -left, within, method="bvls").x, *within)
+        off = left + self.jac @ step
+        return step, float(left @ left - off @ off)
+
+    def _is_fine_enough(self, x: Array, finer: tuple[int, int]) -> bool:
+        """Whether finer runs are the same but for what the data are not worth."""
+        left = self._left(x, self.size)
+        off = np.abs(self._left(x, finer) - left) * self.error
+        self.cof_error = float(off.max())
+        scatter = np.sqrt(left @ left / (left.size - x.size)) if self.data.error is None else self.error
+        if np.all(off <= WORTH * scatter):
+            return True
+        self.cof_error /= 3  # of the finer runs, at second order
+        return False
 
     def values(self, x: Array) -> dict[str, float]:
         """{path: value}."""
@@ -300,27 +356,28 @@ class _Model:
 
     def left(self, x: Array) -> Array:
         """Fitted less measured, over the errors (n,)."""
-        return self._at(tuple(x.tolist()))
+        left, best = self._left(x, self.size), self.best
+        if best is None or best.size != self.size or left @ left < best.left @ best.left:
+            self.best = _Best(x.copy(), left, self.size)
+            values = ", ".join(f"{one.name} = {one.told(at)}" for one, at in zip(self.free, x.tolist(), strict=True))
+            self._ticker.what = f"fit, {values} so far, {float(np.sqrt(np.mean(left**2))):.3g} left on average"
+        return left
 
-    def slopes(self, x: Array) -> Array:
+    def _take_differences(self, x: Array) -> None:
         """Derivatives (n, k), by a step into the range: well above the noise of a run, well below any curvature."""
-        columns, most = [], 1e-3
+        columns, most, left = [], 1e-3, self._left(x, self.size)
         for i, one in enumerate(self.free):
             low, high = one.ends
             step = min(most, (high - low) / 4) * (1 if x[i] + most < high else -1)
             moved = x + step * (np.arange(x.size) == i)
-            columns.append((self._deviations(tuple(moved.tolist())) - self.left(x)) / step)
-        self.jac = np.transpose(columns)
-        return self.jac
+            columns.append((self._left(moved, self.size) - left) / step)
+        self.jac, self._differences_at = np.transpose(columns), x.tolist()
 
-    def _deviations(self, x: tuple[float, ...]) -> Array:
-        left = np.asarray((self._cof(np.array(x), self.size) - self.data.cof) / self.error)
-        best = self.best
-        if best is None or best.size != self.size or left @ left < best.left @ best.left:
-            self.best = _Best(np.array(x), left, self.size)
-            values = ", ".join(f"{one.name} = {one.told(at)}" for one, at in zip(self.free, x, strict=True))
-            self._ticker.what = f"fit, {values} so far, {float(np.sqrt(np.mean(left**2))):.3g} left on average"
-        return left
+    def _left(self, x: Array, size: tuple[int, int]) -> Array:
+        key = (size, *x.tolist())
+        if key not in self._known:
+            self._known[key] = np.asarray((self._cof(x, size) - self.data.cof) / self.error)
+        return self._known[key]
 
     def _cof(self, x: Array, size: tuple[int, int]) -> Array:
         if time_is_over():
