@@ -18,9 +18,10 @@ import numpy as np
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.paths import require_apart
 from mdr.closed_forms.shaken_pull import CLOSED_FORM
-from mdr.friction.cof_curve import CofCurve, cof_curve, friction_without_bound
-from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, case_of, path_of
+from mdr.friction.cof_curve import CofCurve, cof_curve
+from mdr.friction.free_parameters import DECADES, NEAR_END, Parameter, path_of
 from mdr.friction.friction_data import FrictionData
+from mdr.friction.likelihood import Curves, LogLikelihood
 from mdr.given.vary import still_held, warn_of_load
 from mdr.march.result.refinement import default_springs, default_steps
 from mdr.normal.resolved import at_rest, resolved
@@ -34,7 +35,7 @@ from mdr.tools.summary import Printed
 
 WORTH = 0.1  #: of the error of a measurement, which runs are to keep to
 LEAST_GRID = 16  #: springs, or steps of a period, of a run that is worth anything
-ROUGHLY, CLOSELY = 1e-2, 1e-5  #: share of chi squared that a step lowers it by where a search ends
+ROUGHLY, CLOSELY = 1e-3, 1e-5  #: share of chi squared that a step lowers it by where a search ends
 LEAST_STEP = 1e-7  #: on the scale of the search
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
@@ -56,6 +57,7 @@ class Fit(Printed, ArrayRecord):
     units: dict[str, str]  #: of the values, "" for pure numbers
     warnings: tuple[str, ...]  #: what the data do not tell
     cof_error: float  #: about the greatest error of the runs that were fitted [-]; 0 in closed form
+    log_likelihood: LogLikelihood  #: of other values: found.log_likelihood(values), for a sampler
     stopped: str = ""  #: what ended the search before the best fit was found: values are the best so far
 
     @property
@@ -181,7 +183,7 @@ def fit(
     free = _parameters(case, parameters, bounds, held or {})
     if len(free) >= data.v_0.size:
         raise ValueError(f"{len(free)} parameters need more than {data.v_0.size} measurements")
-    model = _Model(case, data, free, still_held(held or {}, [one.path for one in free]))
+    model = _Search(Curves(case, data, free, still_held(held or {}, [one.path for one in free])))
     stopped = ""
     with time_limit(limit_s):
         try:
@@ -198,7 +200,7 @@ def fit(
     idle = np.linalg.norm(model.jac, axis=0) < np.sqrt(EPS) * size  # where these have drifted to means nothing
     x = np.where(idle & (not stopped), [one.coordinate(one.start) for one in free], model.best.x)
     fitted = _with_intervals(model, x, model.jac, model.best.left, confidence, stopped)
-    warn_of_load({**model.held, **model.values(x)}, fitted.case, "at the best fit ")
+    warn_of_load({**model.curves.held, **model.curves.values(x)}, fitted.case, "at the best fit ")
     return fitted
 
 
@@ -248,17 +250,14 @@ class _Best(NamedTuple):
     size: tuple[int, int]  #: springs and steps of its runs
 
 
-class _Model:
-    """What is left of the data at coordinates x (k,) of the parameters, its derivatives, and the best so far."""
+class _Search:
+    """The search for the best fit: what is left of the data at coordinates x (k,), its derivatives, the best so far."""
 
-    def __init__(
-        self, case: SlidingContact, data: FrictionData, free: tuple[Parameter, ...], held: Mapping[str, Any]
-    ) -> None:
-        self.case, self.data, self.free, self.held = case, data, free, held
-        self.over = _axis(case, data)
-        self.error = 1.0 if data.error is None else data.error
+    def __init__(self, curves: Curves) -> None:
+        self.curves, self.data, self.free = curves, curves.data, curves.free
+        self.error = 1.0 if self.data.error is None else self.data.error
         self.best: _Best | None = None
-        self.jac = np.zeros((data.v_0.size, len(free)))  #: (n, k), the last that was made
+        self.jac = np.zeros((self.data.v_0.size, len(self.free)))  #: derivatives (n, k)
         self.cof_error, self.size = 0.0, (0, 0)
         self._known: dict[tuple[Any, ...], Array] = {}  #: what is left, by size and coordinates
         self._differences_at: list[float] = []  #: coordinates at which `jac` is by differences
@@ -267,7 +266,7 @@ class _Model:
     def search(self) -> None:
         """The best fit, by runs as coarse as the data allow."""
         x = np.array([one.first for one in self.free])
-        first = resolved(self.case)
+        first = resolved(self.curves.case)
         most = default_springs(first), default_steps(first)
         shares = (1,) if first in CLOSED_FORM else (4, 2, 1)
         sizes = list(dict.fromkeys((max(most[0] // k, LEAST_GRID), max(most[1] // k, LEAST_GRID)) for k in shares))
@@ -281,25 +280,27 @@ class _Model:
                 continue  # a brief contact that so few steps do not see
             if finer is None or self._is_fine_enough(x, finer):
                 break
+        self._take_differences(x)
         self._descended(x, CLOSELY)
 
     def _descended(self, x: Array, enough: float) -> Array:
-        """Where a step lowers chi squared by no more than a share that is enough, by Gauss and Newton in a trust region.
+        """Where steps lower chi squared by no more than a share that is enough, by Gauss and Newton in a trust region.
 
         A step keeps within the ends and a box, at first of a factor of e, or of a unit. Derivatives are by differences
         at first, closely at the end, and where they promised too much; else those of the point before, to which the way
         from there is added (Broyden, Mathematics of Computation 19 (1965) 577).
         """
-        left, reach = self.left(x), 1.0
+        left, reach, is_near = self.left(x), 1.0, False
         if not self.jac.any():
             self._take_differences(x)
         while True:
             is_here = self._differences_at == x.tolist()
             step, promised = self._step(x, left, np.inf)
+            is_near |= is_here and promised <= ROUGHLY * (left @ left)
             is_end = promised <= enough * (left @ left) or reach < LEAST_STEP or np.abs(step).max() < LEAST_STEP
             if is_end and enough == ROUGHLY:
                 return x
-            if is_end and not is_here:
+            if is_end and not (is_here or is_near):
                 self._take_differences(x)
                 continue
             if np.abs(step).max() > reach:
@@ -346,14 +347,6 @@ class _Model:
         self.cof_error /= 3  # of the finer runs, at second order
         return False
 
-    def values(self, x: Array) -> dict[str, float]:
-        """{path: value}."""
-        return {one.path: one.value(at) for one, at in zip(self.free, x.tolist(), strict=True)}
-
-    def case_at(self, x: Array) -> SlidingContact:
-        """The contact."""
-        return case_of(self.case, {**self.held, **self.values(x)})
-
     def left(self, x: Array) -> Array:
         """Fitted less measured, over the errors (n,)."""
         left, best = self._left(x, self.size), self.best
@@ -364,48 +357,24 @@ class _Model:
         return left
 
     def _take_differences(self, x: Array) -> None:
-        """Derivatives (n, k), by a step into the range: well above the noise of a run, well below any curvature."""
-        columns, most, left = [], 1e-3, self._left(x, self.size)
-        for i, one in enumerate(self.free):
-            low, high = one.ends
-            step = min(most, (high - low) / 4) * (1 if x[i] + most < high else -1)
-            moved = x + step * (np.arange(x.size) == i)
-            columns.append((self._left(moved, self.size) - left) / step)
-        self.jac, self._differences_at = np.transpose(columns), x.tolist()
+        self.jac = self.curves.differences(x, lambda at: self._left(at, self.size))
+        self._differences_at = x.tolist()
 
     def _left(self, x: Array, size: tuple[int, int]) -> Array:
         key = (size, *x.tolist())
         if key not in self._known:
-            self._known[key] = np.asarray((self._cof(x, size) - self.data.cof) / self.error)
+            if time_is_over():
+                raise Ended
+            self._ticker.tick()
+            try:
+                self._known[key] = self.curves.missed(x, size) / self.error
+            except ValueError as refusal:
+                where = ", ".join(f"{path} = {value:.6g}" for path, value in self.curves.values(x).items())
+                raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None
         return self._known[key]
 
-    def _cof(self, x: Array, size: tuple[int, int]) -> Array:
-        if time_is_over():
-            raise Ended
-        self._ticker.tick()
-        try:
-            if self.data.values is None:
-                return friction_without_bound(self.case_at(x), self.data.v_0, *size)
-            given, points = {**self.held, **self.values(x)}, zip(self.data.values.tolist(), self.data.v_0, strict=True)
-            cases = ((case_of(self.case, {**given, self.over: value}), v_0) for value, v_0 in points)
-            return np.concatenate([friction_without_bound(case, np.array([v_0]), *size) for case, v_0 in cases])
-        except ValueError as refusal:
-            where = ", ".join(f"{path} = {value:.6g}" for path, value in self.values(x).items())
-            raise ValueError(f"the search came to {where}: {refusal}; keep it away by bounds") from None
 
-
-def _axis(case: SlidingContact, data: FrictionData) -> str:
-    """The path of what the data are over; empty of the velocity."""
-    try:
-        return "" if data.values is None else path_of(case, data.over)
-    except ValueError:
-        part = "shake" if data.over in ("du_x", "du_y") else "oscillation"
-        raise ValueError(
-            f"the data are over {data.over}, which this case lacks: give it a {part} that has it"
-        ) from None
-
-
-def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence: float, stopped: str) -> Fit:
+def _with_intervals(model: _Search, x: Array, jac: Array, left: Array, confidence: float, stopped: str) -> Fit:
     """The fit with intervals and warnings, from the Jacobian (n, k) and the residuals (n,) at the best values."""
     from scipy.stats import t
 
@@ -419,7 +388,7 @@ def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence
     correlation = covariance / np.outer(sigma, sigma) if variance else np.eye(x.size)
     free = model.free
     names = [one.name for one in free]
-    case = model.case_at(x)
+    case = model.curves.case_at(x)
     return Fit(
         case=case,
         data=model.data,
@@ -440,6 +409,9 @@ def _with_intervals(model: _Model, x: Array, jac: Array, left: Array, confidence
             *_missed(left, model),
         ),
         cof_error=model.cof_error,
+        log_likelihood=LogLikelihood(
+            model.curves, model.size, np.broadcast_to(model.error * variance**0.5, left.shape)
+        ),
         stopped=stopped,
     )
 
@@ -477,7 +449,7 @@ def _alike(names: list[str], correlation: Array) -> list[str]:
     ]
 
 
-def _beyond(case: SlidingContact, model: _Model) -> list[str]:
+def _beyond(case: SlidingContact, model: _Search) -> list[str]:
     """Friction above the local coefficient, which no contact shows."""
     free = {one.path for one in model.free}
     above = model.data.cof - case.mu_0 - (0.0 if model.data.error is None else ERRORS * model.data.error)
@@ -486,7 +458,7 @@ def _beyond(case: SlidingContact, model: _Model) -> list[str]:
     return [f"cof: measured up to {model.data.cof.max():.4g}, above mu_0 = {case.mu_0:.4g}; fit mu_0 too"]
 
 
-def _missed(left: Array, model: _Model) -> list[str]:
+def _missed(left: Array, model: _Search) -> list[str]:
     """Whether the deviations (n,), in units of the errors, are larger than these explain: chi squared."""
     from scipy.stats import chi2
 

@@ -44,7 +44,7 @@ def test_a_signal_and_a_limit_leave_the_best_so_far(files, capsys, monkeypatch):
         return friction_without_bound(*given)
 
     before = signal.getsignal(signal.SIGTERM)
-    monkeypatch.setattr("mdr.friction.fit.friction_without_bound", killed)
+    monkeypatch.setattr("mdr.friction.likelihood.friction_without_bound", killed)
     assert "stopped by an interrupt: the best values so far" in words_of(capsys, [*files, "--free", "mu_0"], 130).out
     assert signal.getsignal(signal.SIGTERM) is before
     monkeypatch.setattr("mdr.friction.fit.time_is_over", lambda: len(curves) > 6)
