@@ -296,7 +296,7 @@ class _Search:
         while True:
             is_here = self._differences_at == x.tolist()
             step, promised = self._step(x, left, np.inf)
-            is_near |= is_here and promised <= ROUGHLY * (left @ left)
+            is_near |= is_here and bool(promised <= ROUGHLY * (left @ left))
             is_end = promised <= enough * (left @ left) or reach < LEAST_STEP or np.abs(step).max() < LEAST_STEP
             if is_end and enough == ROUGHLY:
                 return x
