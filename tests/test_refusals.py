@@ -260,7 +260,8 @@ CALLS = [
     (mdr.propagate, {"case": CASE, "spread": {"mu_0": "5%"}, "v_0": 1e-4}, {
         "v_0": [(one, "v_0") for one in (NAN, INF, "1e-4", True, [1e-4])],
         "spread": [(3, "must be a dict such as"), ({}, "must be a dict"), (["mu_0"], "must be a dict")],
-        "samples": [*COUNT, (29, "at least 30")], "seed": [(-1, "at least 0"), (0.5, "whole number")],
+        "samples": [*COUNT, (29, "at least 30"), (10**13, "at most 1000000")],
+        "seed": [(-1, "at least 0"), (0.5, "whole number")],
         "accuracy": [(NAN, "finite")], "held": [({"u_z0": 1}, "held takes load")]}),
     (mdr.partial_slip, {**PRESSED, "mu_0": 0.5, "u_z0": 1e-6, "u_x": 1e-7}, {
         "u_x": [*ARRAY, (-1e-7, "must not be negative")], "u_z0": ABOVE_ZERO}),

@@ -163,7 +163,7 @@ def plot_propagated(found: Any, ax: Axes | None = None) -> Axes:
 
 def _histogram(ax: Axes, values: Any, centre: float, sd: float | None, factor: float) -> None:
     """Samples, and how many of them a normal distribution has there; without a spread a line where it is."""
-    _, edges, _ = ax.hist(values, bins=round(np.sqrt(values.size)), color=COLOURS[4], label="samples")
+    _, edges, _ = ax.hist(values, bins=max(round(np.sqrt(values.size)), 1), color=COLOURS[4], label="samples")
     most = ax.get_ylim()
     if sd and np.isfinite(centre):
         x = np.linspace(-4, 4, 201)

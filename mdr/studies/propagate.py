@@ -36,7 +36,7 @@ from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary
 
-LEAST = 30  #: samples that tell a standard deviation, to an eighth of it
+LEAST, MOST = 30, 1_000_000  #: samples: so few tell a standard deviation to an eighth of it, so many fill the memory
 MIDDLE = (0.025, 0.975)  #: quantiles between which 95 % of the samples lie
 UNITS = {"cof": "-", "v_c": "m/s"}  #: of what is asked for
 
@@ -203,6 +203,8 @@ def propagate(
     if not isinstance(spread, Mapping) or not spread:
         raise TypeError(f'spread must be a dict such as {{"mu_0": "5%"}}, got {short(repr(spread))}')
     n, seed = count("samples", samples, LEAST), count("seed", seed, 0)
+    if n > MOST:
+        raise ValueError(f"samples must be at most {MOST}, got {n}: more do not fit into memory")
     kept = still_held(held or {}, ())
     of = Inputs(case_of(case, kept), None if v_0 is None else finite("v_0", v_0), kept)
     paths = of.asked(spread)
@@ -300,7 +302,7 @@ class _BySlopes(NamedTuple):
 def _by_slopes(slopes: Sensitivity, name: str, deviations: Mapping[str, float]) -> _BySlopes:
     """The standard deviation of a quantity; an input that it does not know has no part in it."""
     if why := slopes.why[name]:
-        return _BySlopes(None, {}, 0.0, f"the samples stand alone, as there is no slope at {next(iter(why.values()))}")
+        return _BySlopes(None, {}, 0.0, f"the samples stand alone, without a slope: {next(iter(why.values()))}")
     d, errors = getattr(slopes, f"d_{name}"), slopes.error[name]
     parts = {path: slope * deviations[path] for path, slope in d.items()}
     total = float(np.linalg.norm([*parts.values()]))
