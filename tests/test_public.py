@@ -120,7 +120,7 @@ RECORDS = {
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "friction.find.Found": "path values why cases",
     "friction.sensitivity.Sensitivity": "v_0 inputs cof d_cof v_c d_v_c static_cof d_static_cof error why",
-    "studies.propagate.Propagated": "v_0 inputs spread cof cof_sd cof_share v_c v_c_sd v_c_share samples agrees why",
+    "studies.propagate.Propagated": "v_0 inputs spread cof cof_sd cof_share v_c v_c_sd v_c_share samples why",
     "friction.tolerance.Tolerance": "by v_0 base_cof base_v_c inputs cof v_c warnings",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",
     "friction.shaken.HoldingBand": "low high",

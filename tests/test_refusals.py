@@ -467,6 +467,7 @@ SAYINGS = {
             ("'nan%'", "wants a pure number"),
         )
     },
+    'propagate(CASE, {"nu": 1e9}, 1e-4)': "0 of 1000 samples have a ",
     'propagate(CASE, {"nu": 1e9})': "samples have a v_c, and 30 tell a standard deviation: 1000: nu must lie in",
     'sensitivity(CASE, fields=["taw"])': "did you mean tau?",
     "sensitivity(CASE, fields=[1])": "parameters must be names, got 1",

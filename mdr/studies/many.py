@@ -69,7 +69,7 @@ class ManyCofs(Summarised, Tabled, ArrayRecord):
 
 
 @dataclass(frozen=True)
-class _Listed(Work):
+class Listed(Work):
     """Work of a list: a unit for each contact, and its one velocity."""
 
     cases: tuple[SlidingContact, ...] = ()
@@ -78,7 +78,7 @@ class _Listed(Work):
     @cached_property
     def layout(self) -> Layout:
         """One point after the other."""
-        return Layout((len(self.cases),), None, 1)
+        return Layout((len(self.v_0),), None, 1)
 
     @property
     def moves(self) -> bool:
@@ -155,6 +155,6 @@ def slide_many(
     knobs = {"n_springs": n_springs, "steps_per_period": steps_per_period, "accuracy": accuracy_of(accuracy)}
     given = tuple(map(as_given, listed)) * (n // len(listed))
     pulls = np.broadcast_to(velocities, n)
-    points = points_of(_Listed(given[0], (), COLUMNS, knobs, {}, given, tuple(pulls.tolist())), "slide_many")
+    points = points_of(Listed(given[0], (), COLUMNS, knobs, {}, given, tuple(pulls.tolist())), "slide_many")
     cof, cof_y, cof_error, stick_share = points.values
     return ManyCofs(pulls.copy(), cof, cof_y, cof_error, stick_share, points.status, tuple(points.why.tolist()))

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.paths import RIG, facts_at, require_apart
-from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.friction.fit import ERRORS
 from mdr.friction.free_parameters import case_of
 from mdr.friction.inputs import OF_RUN, Inputs
@@ -24,20 +24,22 @@ from mdr.friction.sensitivity import LABELS, Sensitivity, sensitivity
 from mdr.given.vary import still_held
 from mdr.march.periodic.steady import BUDGET
 from mdr.plots.figures import Axes
-from mdr.studies.many import slide_many
-from mdr.studies.points import OF_THE_POINT, reason_of
+from mdr.studies.engine import points_of
+from mdr.studies.many import Listed
+from mdr.studies.quantities import CATALOGUE
 from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, finite, positive
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.messages import most_frequent, short
 from mdr.tools.notation import parted, shown, value_in
-from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
+from mdr.tools.status import Status
 from mdr.tools.summary import Summarised, Summary
 
 LEAST, MOST = 30, 1_000_000  #: samples: so few tell a standard deviation to an eighth of it, so many fill the memory
 MIDDLE = (0.025, 0.975)  #: quantiles between which 95 % of the samples lie
+ASKED = tuple(CATALOGUE[name] for name in ("cof", "cof_error", "v_c"))
 UNITS = {"cof": "-", "v_c": "m/s"}  #: of what is asked for
 
 
@@ -78,8 +80,12 @@ class Propagated(Summarised, Tabled, ArrayRecord):
     #: of "cof" and "v_c": values (n,), NaN of a sample without; their mean, sd, low and high, between which 95 % lie;
     #: error, of the runs; left_out, how many have none, and why
     samples: Mapping[str, Samples]
-    agrees: Mapping[str, bool | None]  #: whether slopes and samples do; None without slopes
-    why: Mapping[str, str]  #: why not; "" where they agree
+    why: Mapping[str, str]  #: why slopes and samples do not agree, or there is no slope; "" where they agree
+
+    @property
+    def agrees(self) -> dict[str, bool | None]:
+        """Whether slopes and samples of "cof" and "v_c" agree; None without slopes."""
+        return {name: None if getattr(self, f"{name}_sd") is None else not why for name, why in self.why.items()}
 
     def _summary(self) -> Summary:
         rows = []
@@ -193,7 +199,7 @@ def propagate(
     >>> vibration = mdr.NormalOscillation(u_z0=20e-6, du_z=2e-6, omega=300.0)
     >>> cone, rubber = mdr.Cone(theta=0.0127), mdr.Elastic(E=3e6, nu=0.4)
     >>> case = mdr.SlidingContact(cone, rubber, mu_0=0.4, oscillation=vibration)
-    >>> found = mdr.propagate(case, {"mu_0": "3%", "oscillation.du_z": "0.08um"}, 1e-4)
+    >>> found = mdr.propagate(case, {"mu_0": "3%", "oscillation.du_z": "0.08um"}, 1e-4, samples=200)
     >>> print(f"{found.v_c_sd / found.v_c:.3f}, of mu_0 {found.v_c_share['mu_0']:.2f}")
     0.050, of mu_0 0.36
     >>> print(f"{found.cof:.3f} +- {found.cof_sd:.3f}", found.agrees["cof"])
@@ -218,23 +224,34 @@ def propagate(
     draws = np.random.default_rng(seed).standard_normal((n, len(paths)))
     drawn = np.array([*slopes.inputs.values()]) + draws * [*deviations.values()]
     pulls = drawn[:, paths.index(OF_RUN)] if OF_RUN in paths else np.full(n, np.nan if v_0 is None else v_0)
-    found = _samples(of, kept, [dict(zip(paths, one, strict=True)) for one in drawn.tolist()], pulls, accuracy)
-    by_slopes = {name: _by_slopes(slopes, name, deviations) for name in UNITS}
+    settings = tuple({**kept, **dict(zip(paths, one, strict=True))} for one in drawn.tolist())
+    found = _samples(
+        _Drawn(
+            of.case,
+            (),
+            ASKED if v_0 is not None else ASKED[-1:],
+            {"accuracy": accuracy},
+            {},
+            (),
+            tuple(pulls),
+            settings,
+        )
+    )
+    cof, v_c = (_by_slopes(slopes, name, deviations) for name in UNITS)
     faster = int(np.sum(pulls > found["v_c"].values))
-    why = {name: _apart(name, getattr(slopes, name), by_slopes[name], one, faster) for name, one in found.items()}
+    why = {name: _apart(name, {"cof": cof, "v_c": v_c}[name], one, faster) for name, one in found.items()}
     return Propagated(
         v_0=of.v_0,
         inputs=slopes.inputs,
         spread=deviations,
         cof=slopes.cof,
-        cof_sd=by_slopes["cof"].sd if "cof" in found else None,
-        cof_share=by_slopes["cof"].shares if "cof" in found else {},
+        cof_sd=cof.sd,
+        cof_share=cof.shares,
         v_c=slopes.v_c,
-        v_c_sd=by_slopes["v_c"].sd,
-        v_c_share=by_slopes["v_c"].shares,
+        v_c_sd=v_c.sd,
+        v_c_share=v_c.shares,
         drawn=drawn,
         samples=found,
-        agrees={name: None if by_slopes[name].sd is None else not why[name] for name in found},
         why=why,
     )
 
@@ -249,40 +266,41 @@ def _deviation(of: Inputs, path: str, given: Any) -> float:
     return positive(name, given, f"a standard deviation, or per cent of the value, {known}; leave out what is exact")
 
 
-def _samples(
-    of: Inputs, kept: Mapping[str, Any], drawn: list[dict[str, float]], pulls: Array, accuracy: float
-) -> dict[str, Samples]:
-    """What is asked for of each draw, at its velocity."""
-    cases: list[SlidingContact] = []
-    values = {name: np.full(len(drawn), np.nan) for name in (*(() if of.v_0 is None else ("cof",)), "v_c")}
-    whys = {name: [""] * len(drawn) for name in values}
-    places = []
-    for i, settings in enumerate(progress(drawn, "propagate", "cases")):
-        try:
-            one = case_of(of.case, {**kept, **{path: x for path, x in settings.items() if path != OF_RUN}})
-            values["v_c"][i] = critical_velocity(one)
-        except OF_THE_POINT as refusal:
-            for why in whys.values():
-                why[i] = reason_of(refusal)
-        else:
-            places.append(i)
-            cases.append(one)
-    errors = {"v_c": EXACT * np.abs(values["v_c"])}
-    if "cof" in values and cases:
-        found = slide_many(cases, pulls[places], accuracy=accuracy)
-        values["cof"][places], errors["cof"] = np.where(found.settled, found.cof, np.nan), found.cof_error
-        for i, ends, told in zip(places, found.settled.tolist(), found.why, strict=True):
-            whys["cof"][i] = "" if ends else told
-    return {name: _statistics(name, one, whys[name], errors[name]) for name, one in values.items()}
+@dataclass(frozen=True)
+class _Drawn(Listed):
+    """Work of the draws: a case for each, of what is set in it."""
+
+    settings: tuple[Mapping[str, Any], ...] = ()
+
+    @property
+    def moves(self) -> bool:
+        """Whether friction is asked for."""
+        return any(one.per_velocity for one in self.quantities)
+
+    def case_of(self, unit: int) -> SlidingContact:
+        """The contact of a draw."""
+        return case_of(self.case, {path: one for path, one in self.settings[unit].items() if path != OF_RUN})
 
 
-def _statistics(name: str, values: Array, whys: list[str], errors: Array) -> Samples:
+def _samples(work: _Drawn) -> dict[str, Samples]:
+    """What is asked for of each draw; of what has not settled there is no friction."""
+    points = points_of(work, "propagate")
+    *of_cof, v_c = points.values
+    found = {"v_c": _statistics("v_c", v_c, points.why, EXACT * np.abs(v_c))}
+    if of_cof:
+        cof, errors = np.where(points.status == Status.DONE, of_cof, np.nan)
+        found = {"cof": _statistics("COF", cof, points.why, errors)} | found
+    return found
+
+
+def _statistics(what: str, values: Array, why: NDArray[np.object_], errors: Array) -> Samples:
     """Mean, standard deviation and quantiles of the samples that have a value; infinite ones have quantiles alone."""
-    known, left_out = values[~np.isnan(values)], tuple(most_frequent(whys))
+    is_known = ~np.isnan(values)
+    known, left_out = values[is_known], tuple(most_frequent(why[~is_known].tolist()))
     if known.size < LEAST:
         raise ValueError(
-            f"spread: {known.size} of {values.size} samples have a {LABELS[name]}, and {LEAST} tell a standard "
-            f"deviation: {'; '.join(left_out)}; give a smaller spread"
+            f"spread: {known.size} of {values.size} samples have a {what}, and {LEAST} tell a standard deviation: "
+            f"{'; '.join(left_out)}; give a smaller spread"
         )
     is_finite = bool(np.isfinite(known).all())
     mean, sd = (float(np.mean(known)), float(np.std(known, ddof=1))) if is_finite else (np.inf, np.inf)
@@ -293,52 +311,42 @@ def _statistics(name: str, values: Array, whys: list[str], errors: Array) -> Sam
 class _BySlopes(NamedTuple):
     """What derivatives make of the standard deviations of inputs."""
 
-    sd: float | None  #: None where a slope is not there
-    shares: Mapping[str, float]
-    error: float  #: of the standard deviation
-    why: str  #: why there is no slope
+    value: float  #: of the case
+    sd: float | None = None  #: None where a slope is not there
+    shares: Mapping[str, float] = {}
+    error: float = 0.0  #: of the standard deviation
+    why: str = ""  #: why there is no slope
 
 
 def _by_slopes(slopes: Sensitivity, name: str, deviations: Mapping[str, float]) -> _BySlopes:
     """The standard deviation of a quantity; an input that it does not know has no part in it."""
-    if why := slopes.why[name]:
-        return _BySlopes(None, {}, 0.0, f"the samples stand alone, without a slope: {next(iter(why.values()))}")
-    d, errors = getattr(slopes, f"d_{name}"), slopes.error[name]
+    value, d, errors = getattr(slopes, name), getattr(slopes, f"d_{name}"), slopes.error[name]
+    if value is None or slopes.why[name]:
+        return _BySlopes(value, why=f"the samples stand alone, without a slope: {[*slopes.why[name].values(), ''][0]}")
     parts = {path: slope * deviations[path] for path, slope in d.items()}
     total = float(np.linalg.norm([*parts.values()]))
     shares = {path: (part / total) ** 2 if total else 0.0 for path, part in parts.items()}
-    return _BySlopes(total, shares, sum(errors[path] * deviations[path] for path in d), "")
+    return _BySlopes(value, total, shares, sum(errors[path] * deviations[path] for path in d))
 
 
-def _apart(name: str, value: float, by: _BySlopes, found: Samples, faster: int) -> str:
+def _apart(name: str, by: _BySlopes, found: Samples, faster: int) -> str:
     """Where slopes and samples are apart by more than the errors of both, and why; "" where they agree."""
     if by.sd is None:
         return by.why
-    known = found.known
-    of_mean, of_sd = found.sd / np.sqrt(known.size), _error_of_sd(known)
+    known, unit = found.known, UNITS[name]
+    off = known - found.mean
+    of_sd = np.sqrt(np.var(off**2) / known.size) / (2 * found.sd) if found.sd else 0.0
     told = [
-        f"{shown(other, UNITS[name], 6)} {whose} is {shown(one, UNITS[name], 6)} in the samples, "
-        f"to {shown(error, UNITS[name], 2)}"
+        f"{shown(other, unit, 6)} {whose} is {shown(one, unit, 6)} in the samples, to {shown(error, unit, 2)}"
         for whose, other, one, error, rest in (
-            ("of the case", value, found.mean, of_mean, found.error),
+            ("of the case", by.value, found.mean, found.sd / np.sqrt(known.size), found.error),
             ("standard deviation by slopes", by.sd, found.sd, of_sd, found.error + by.error),
         )
         if not abs(one - other) <= ERRORS * error + rest
     ]
     if not told:
         return ""
-    n = found.values.size
-    is_split = name == "cof" and 0 < faster < n
-    bends = (
-        f"v_c lies within the spread, and {faster} of {n} samples are pulled faster"
-        if is_split
-        else "it bends over the spread"
-    )
-    return f"{'; '.join(told)}: {bends}; trust the samples"
-
-
-def _error_of_sd(known: Array) -> float:
-    """Standard error of the standard deviation of such samples, by their fourth moment."""
-    off = known - known.mean()
-    square = float(np.mean(off**2))
-    return float(np.sqrt((np.mean(off**4) - square**2) / (4 * known.size * square))) if square else 0.0
+    n, why = found.values.size, "it bends over the spread"
+    if name == "cof" and 0 < faster < n:
+        why = f"v_c lies within the spread, and {faster} of {n} samples are pulled faster"
+    return f"{'; '.join(told)}: {why}; trust the samples"

@@ -85,7 +85,7 @@ def test_what_a_file_gave_is_held_in_every_sample():
     for (load, E, tan_delta), cof in zip(found.drawn[:3].tolist(), found.samples["cof"].values, strict=False):
         case = written(HORN, {"load": load, "material.E": E, "tan_delta": tan_delta})
         assert_allclose(cof, mdr.cof_curve(case, 0.01).cof[0], rtol=1e-9)
-    deep = mdr.propagate(said.case, {"u_z0": "5%", "E": "10%"}, 0.01, held=said.held, samples=30)  # no load any more
+    deep = mdr.propagate(said.case, {"u_z0": "5%", "E": "10%"}, 0.01, held=said.held, samples=30)  # no load is held
     assert deep.cof_share["material.E"] == pytest.approx(0, abs=1e-9)
 
 
