@@ -187,8 +187,8 @@ def propagate(
     -----
     Slopes know the case alone. Where friction bends over the spread, as it does where v_c lies within it, the samples
     have another mean and another standard deviation. `agrees` says whether these differ by more than three of the
-    standard errors of so many samples, and `why` says how. An input without a slope, as mu_s where friction jumps,
-    leaves the samples alone.
+    standard errors of so many samples of a normal distribution, and `why` says how. An input without a slope, as mu_s
+    where friction jumps, leaves the samples alone.
 
     A sample that the case cannot have, such as nu = 0.51, is left out. So is one that does not settle. `left_out` of
     the samples counts them: the rest is no normal distribution any more.
@@ -330,23 +330,23 @@ def _by_slopes(slopes: Sensitivity, name: str, deviations: Mapping[str, float]) 
 
 
 def _apart(name: str, by: _BySlopes, found: Samples, faster: int) -> str:
-    """Where slopes and samples are apart by more than the errors of both, and why; "" where they agree."""
+    """Where the samples are not those of a normal distribution by slopes, beyond chance and the errors of both, and
+    why; "" where they may be.
+    """
     if by.sd is None:
         return by.why
-    known, unit = found.known, UNITS[name]
-    off = known - found.mean
-    of_sd = np.sqrt(np.var(off**2) / known.size) / (2 * found.sd) if found.sd else 0.0
+    n, unit = found.known.size, UNITS[name]
     told = [
-        f"{shown(other, unit, 6)} {whose} is {shown(one, unit, 6)} in the samples, to {shown(error, unit, 2)}"
-        for whose, other, one, error, rest in (
-            ("of the case", by.value, found.mean, found.sd / np.sqrt(known.size), found.error),
-            ("standard deviation by slopes", by.sd, found.sd, of_sd, found.error + by.error),
+        f"{what} of the samples {shown(one, unit, 6)}, {whose} {shown(other, unit, 6)}"
+        for what, one, whose, other, chance, error in (
+            ("mean", found.mean, "of the case", by.value, by.sd / np.sqrt(n), found.error),
+            ("standard deviation", found.sd, "by slopes", by.sd, by.sd / np.sqrt(2 * n), found.error + by.error),
         )
-        if not abs(one - other) <= ERRORS * error + rest
+        if not abs(one - other) <= ERRORS * chance + error
     ]
     if not told:
         return ""
-    n, why = found.values.size, "it bends over the spread"
-    if name == "cof" and 0 < faster < n:
-        why = f"v_c lies within the spread, and {faster} of {n} samples are pulled faster"
+    why = "it bends over the spread"
+    if name == "cof" and 0 < faster < found.values.size:
+        why = f"v_c lies within the spread, and {faster} of {found.values.size} samples are pulled faster"
     return f"{'; '.join(told)}: {why}; trust the samples"
