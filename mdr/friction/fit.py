@@ -36,7 +36,8 @@ from mdr.tools.summary import Printed
 WORTH = 0.1  #: of the error of a measurement, which runs are to keep to
 LEAST_GRID = 16  #: springs, or steps of a period, of a run that is worth anything
 ROUGHLY, CLOSELY = 1e-3, 1e-5  #: share of chi squared that a step lowers it by where a search ends
-LEAST_STEP = 1e-7  #: on the scale of the search
+STEPS_TOO_SHORT = 3  #: why least_squares ends
+TOLD = 0.5  #: of the way to another point, by which derivatives may be off to be kept
 ERRORS = 3.0  #: standard deviations from which on a deviation is no chance: of friction out of its range, or of the fit
 
 
@@ -259,8 +260,10 @@ class _Search:
         self.best: _Best | None = None
         self.jac = np.zeros((self.data.v_0.size, len(self.free)))  #: derivatives (n, k)
         self.cof_error, self.size = 0.0, (0, 0)
+        self.refused: ValueError | None = None  #: why there was no case where the last step first led to
+        self.trial: ValueError | None = None  #: the same of the next step
         self._known: dict[tuple[Any, ...], Array] = {}  #: what is left, by size and coordinates
-        self._differences_at: list[float] = []  #: coordinates at which `jac` is by differences
+        self._last: tuple[Array, Array] | None = None  #: coordinates of `jac`, and what is left there
         self._ticker = Ticker("fit", parts="curves")
 
     def search(self) -> None:
@@ -280,61 +283,43 @@ class _Search:
                 continue  # a brief contact that so few steps do not see
             if finer is None or self._is_fine_enough(x, finer):
                 break
-        self._take_differences(x)
+        self._last = None  # derivatives anew
         self._descended(x, CLOSELY)
 
     def _descended(self, x: Array, enough: float) -> Array:
-        """Where steps lower chi squared by no more than a share that is enough, by Gauss and Newton in a trust region.
+        """Where steps lower chi squared by less than a share that is enough."""
+        from scipy.optimize import least_squares
 
-        A step keeps within the ends and a box, at first of a factor of e, or of a unit. Derivatives are by differences
-        at first, closely at the end, and where they promised too much; else those of the point before, to which the way
-        from there is added (Broyden, Mathematics of Computation 19 (1965) 577).
+        ends = np.transpose([one.ends for one in self.free])
+        self.left(x)
+        found = least_squares(self._or_no_case, x, self.slopes, tuple(ends), x_scale="jac", xtol=1e-7, ftol=enough)
+        if found.status == STEPS_TOO_SHORT and (refusal := self.trial or self.refused):
+            raise refusal
+        return np.asarray(found.x)
+
+    def _or_no_case(self, x: Array) -> Array:
+        """What is left; infinite where no case is, for which a step is shortened."""
+        try:
+            return self.left(x)
+        except ValueError as refusal:
+            self.trial = refusal
+            return np.full(self.data.v_0.size, np.inf)
+
+    def slopes(self, x: Array) -> Array:
+        """Derivatives (n, k): those of the point before, to which the way from there is added (Broyden, Mathematics of
+        Computation 19 (1965) 577), where they told most of that way; else by differences.
         """
-        left, reach, is_near = self.left(x), 1.0, False
-        if not self.jac.any():
-            self._take_differences(x)
-        while True:
-            is_here = self._differences_at == x.tolist()
-            step, promised = self._step(x, left, np.inf)
-            is_near |= is_here and bool(promised <= ROUGHLY * (left @ left))
-            is_end = promised <= enough * (left @ left) or reach < LEAST_STEP or np.abs(step).max() < LEAST_STEP
-            if is_end and enough == ROUGHLY:
-                return x
-            if is_end and not (is_here or is_near):
-                self._take_differences(x)
-                continue
-            if np.abs(step).max() > reach:
-                step, promised = self._step(x, left, reach)
-            size = float(np.abs(step).max())
-            try:
-                there = self.left(x + step)
-            except ValueError:  # no case is there
-                reach = size / 4
-                if reach < LEAST_STEP:
-                    raise
-                continue
-            gain = (left @ left - there @ there) / promised if promised > 0 else 0.0
-            if gain > 0:
-                self.jac = self.jac + np.outer(there - left - self.jac @ step, step) / (step @ step)
-                x, left = x + step, there
-            if is_end:
-                return x
-            if gain > 0.75:
-                reach = max(reach, 2 * size)
-            elif gain < 0.25 and is_here:
-                reach = size / 4
-            elif gain < 0.25:
-                self._take_differences(x)
-
-    def _step(self, x: Array, left: Array, reach: float) -> tuple[Array, float]:
-        """The step within the ends, and a box, that lowers chi squared most where curves are straight; by how much."""
-        from scipy.optimize import lsq_linear
-
-        low, high = np.transpose([one.ends for one in self.free])
-        within = np.maximum(low - x, -reach), np.minimum(high - x, reach)
-        step = np.clip(lsq_linear(self.jac, -left, within, method="bvls").x, *within)
-        off = left + self.jac @ step
-        return step, float(left @ left - off @ off)
+        left, self.refused, self.trial = self._left(x, self.size), self.trial, None
+        if self._last is not None and (step := x - self._last[0]).any():
+            moved = left - self._last[1]
+            missed = moved - self.jac @ step
+            self.jac = self.jac + np.outer(missed, step) / (step @ step)
+            if missed @ missed > TOLD**2 * (moved @ moved):
+                self._last = None
+        if self._last is None:
+            self.jac = self.curves.differences(x, lambda at: self._left(at, self.size))
+        self._last = x.copy(), left
+        return self.jac
 
     def _is_fine_enough(self, x: Array, finer: tuple[int, int]) -> bool:
         """Whether finer runs are the same but for what the data are not worth."""
@@ -355,10 +340,6 @@ class _Search:
             values = ", ".join(f"{one.name} = {one.told(at)}" for one, at in zip(self.free, x.tolist(), strict=True))
             self._ticker.what = f"fit, {values} so far, {float(np.sqrt(np.mean(left**2))):.3g} left on average"
         return left
-
-    def _take_differences(self, x: Array) -> None:
-        self.jac = self.curves.differences(x, lambda at: self._left(at, self.size))
-        self._differences_at = x.tolist()
 
     def _left(self, x: Array, size: tuple[int, int]) -> Array:
         key = (size, *x.tolist())
