@@ -16,7 +16,18 @@ version = release = version_of("mdr-friction")
 
 PAGES = {  #: in the order of the navigation, under their headings
     "Guide": ["tutorial", "explorer", "rig", "recipes", "trust", "gallery"],
-    "In depth": ["design", "shaken", "dither", "drive", "other_contacts", "which_law", "element", "paths", "own_data", "studies"],
+    "In depth": [
+        "design",
+        "shaken",
+        "dither",
+        "drive",
+        "other_contacts",
+        "which_law",
+        "element",
+        "paths",
+        "own_data",
+        "studies",
+    ],
     "Physics": ["claims", "theory", "limits", "glossary"],
     "Teaching": ["springs"],
     "Reference": ["questions", "api/shapes", "api/contact", "api/friction", "api/laws", "api/normal", "api/studies"],

@@ -37,7 +37,8 @@ def _add_free(command: argparse.ArgumentParser) -> None:
     """The numbers that may change, and the end of the search."""
     known = "numbers that may change, each with its range, such as du_z=0.1um:2um frequency=100Hz:20kHz"
     read = read_as("path=low:high, such as du_z=0.1um:2um", _range)
-    command.add_argument("--free", metavar="path=low:high", action="extend", nargs="+", required=True, type=read, help=known)
+    ranges = "path=low:high"
+    command.add_argument("--free", metavar=ranges, action="extend", nargs="+", required=True, type=read, help=known)
     add_limit(command, "designs")
 
 
