@@ -3,8 +3,8 @@
 A sum over the springs is an integral over x. Its integrand is smooth but at places that are known from the normal
 motion, the edge of the contact at its greatest depth and the place up to which springs never lose contact, at kinks of
 the shape, and where the order of modes changes, which is not known beforehand: there its second derivative jumps. One
-of these a run can tell: under a body that swings back, those springs slip back that are pressed least of all that never
-lose contact; the others do the same but for their gap (`alike`).
+of these a run can tell: the gap from which on springs slip back (`cut`), where the first derivative jumps. Springs that
+never lose contact do the same up to there but for their gap (`alike`).
 The row is cut at the known places, and each stretch between two cuts, however thin, has springs of its own: the nodes
 of Fejer's first rule, which are as dense at both ends as those of Gauss and do as well (Trefethen 2008), their weights
 being known. What is left is of third order, of the jumps between the cuts. The mean gap of a stretch is exact. So are
@@ -35,13 +35,19 @@ class Depths(NamedTuple):
     kept: float  #: gap below which springs never lose contact
     greatest: float  #: gap at the greatest depth
     alike: float  #: gap below which they do the same besides, but for their gap; no more than `kept`
+    cut: float = np.inf  #: gap from which on springs slip back, where that is known
     by_gap: bool = True  #: whether springs of one gap do the same wherever they stand
 
     @classmethod
-    def of(cls, cycle: Cycle, kept_gap: float, alike: float = np.inf, by_gap: bool = True) -> Depths:
-        """Of a periodic motion; kept_gap and alike in units of its amplitude."""
-        kept, greatest, alike = (cycle.unit * gap for gap in (kept_gap, cycle.greatest, min(kept_gap, alike)))
-        return cls(cycle.u_z0, cycle.unit, kept, greatest, alike, by_gap)
+    def of(
+        cls, cycle: Cycle, kept_gap: float, cut: float = np.inf, by_gap: bool = True, ordered: bool = True
+    ) -> Depths:
+        """Of a periodic motion; kept_gap and cut in units of its amplitude. ordered: whether springs below both do the
+        same but for their gap.
+        """
+        alike = min(kept_gap, cut) if by_gap and ordered else -np.inf
+        kept, greatest, alike, cut = (cycle.unit * gap for gap in (kept_gap, cycle.greatest, alike, cut))
+        return cls(cycle.u_z0, cycle.unit, kept, greatest, alike, cut, by_gap)
 
 
 @remembered(maxsize=16)
@@ -92,14 +98,14 @@ class _Stretches(NamedTuple):
 @remembered(maxsize=16)
 def _stretches(shape: Indenter, depths: Depths) -> _Stretches:
     """The row, cut where springs begin to differ and to lose contact, where contact ends, and at kinks of the shape."""
-    u_z0, kept, alike = depths.u_z0, depths.kept, depths.alike
-    gaps = [gap for gap in (*([alike] if alike < kept else []), kept, depths.greatest) if u_z0 + gap > 0]
+    u_z0, kept, greatest = depths.u_z0, depths.kept, depths.greatest
+    gaps = [gap for gap in sorted({min(depths.cut, greatest), kept, greatest}) if u_z0 + gap > 0]
     radii = shape.contact_radius(u_z0 + np.array(gaps))
     marks = [(0.0, -u_z0), *zip(radii.tolist(), gaps, strict=True)]
     marks += [(x, float(shape.profile_1d(x)) - u_z0) for x in shape.kinks if x < radii[-1]]
     x, gap = np.array(sorted(marks)).T
     area, there = np.diff(shape.profile_area(x)), np.diff(x) > 0
-    cut = (one[there] for one in (x[:-1], x[1:], gap[:-1], gap[1:], area, gap[1:] <= kept, gap[1:] <= alike))
+    cut = (one[there] for one in (x[:-1], x[1:], gap[:-1], gap[1:], area, gap[1:] <= kept, gap[1:] <= depths.alike))
     return _Stretches(*cut)
 
 

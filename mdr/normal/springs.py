@@ -128,12 +128,11 @@ class SpringArray(Summarised, ArrayRecord):
         return float(np.sum(self.dk_z * np.maximum(u_z - u_z0 - self.gap, 0)))
 
 
-def springs_of(case: SlidingContact, n_springs: int, alike: float = np.inf) -> SpringArray:
-    """What `SpringArray.of` answers. alike: gap [amplitudes] up to which springs that never lose contact do the same
-    but for their gap, as all of them do where nothing shakes in the plane, no body swings back, and their limit of
-    friction follows from it.
+def springs_of(case: SlidingContact, n_springs: int, cut: float = np.inf) -> SpringArray:
+    """What `SpringArray.of` answers. cut: gap [amplitudes] at which the row is cut besides. Up to it springs that never
+    lose contact do the same but for their gap, as all of them do where nothing shakes in the plane, no body swings
+    back, and their limit of friction follows from it.
     """
-    by_gap = case.gap_tells_limit
-    depths = Depths.of(case.cycle, case.kept_gap, alike if by_gap and not case.is_shaken else -np.inf, by_gap)
+    depths = Depths.of(case.cycle, case.kept_gap, cut, case.gap_tells_limit, ordered=not case.is_shaken)
     x, gap, width, n_core = nodes(case.indenter, depths, n_springs)
     return SpringArray(x, gap, width, case.material.E_star, case.material.G_star, n_core)

@@ -6,13 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import SHAPES, contact, unit_of_velocity
+from numpy.testing import assert_allclose
 
 import mdr
 from mdr.closed_forms.rigid_pull import average_friction
 from mdr.march.dynamics.stepper import TOLERANCE
-from mdr.march.periodic.steady import Resolution, alike_to, steady
+from mdr.march.periodic.order import cut_of
+from mdr.march.periodic.steady import Resolution, steady
 from mdr.march.result import refinement
 from mdr.march.result.look import looked_at
+from mdr.spring.contact import Springs
 from mdr.spring.contact_modes import State
 from mdr.spring.energies import LEAST_SLIP
 
@@ -141,7 +144,7 @@ def test_the_row_is_cut_where_springs_begin_to_slip_back():
     k_x = 0.6 * case.k_xc
     case = replace(case, pull=mdr.SpringPull(k_x, k_x / (0.7 * 314.0) ** 2, 0.1 * k_x / 314.0))
     v_0 = 0.327 * case.unit_velocity
-    reach = case.cycle.unit * alike_to(steady(case, v_0, Resolution(64, 128, "full_slip", True)))
+    reach = case.cycle.unit * cut_of(steady(case, v_0, Resolution(64, 128, "full_slip", True)))
     assert reach < case.cycle.unit * case.kept_gap
     fine = mdr.slide(case, v_0, n_springs=2048, steps_per_period=128, record=1)
     gap, back = case.indenter.profile_1d(fine.x) - 2e-5, (fine.state == State.SLIP_BACK).any(axis=0)
@@ -152,6 +155,37 @@ def test_the_row_is_cut_where_springs_begin_to_slip_back():
     assert run.n_springs <= 128
     assert run.cof_error < 1e-5 * case.mu_0
     assert abs(run.cof - fine.cof) <= run.cof_error + fine.cof_error
+
+
+LOST = {
+    "body": (contact("paraboloid", 1.56, 0.0, 0.3, 0.9, 0.02), 0.5),
+    "dashpots": (contact("paraboloid", 1.2, 0.2, 0.3, 0.9, 0.02), 0.4),
+    "shaken": (
+        replace(contact("cone", 10.0, 0.0, 2.0, 1.6, 0.1), shake=mdr.InPlaneOscillation(omega=300.0, du_x=3e-6)), 0.3
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LOST)
+def test_the_row_is_cut_among_springs_that_leave_and_under_a_shake(name):
+    case, share = LOST[name]
+    v_0 = share * mdr.critical_velocity(case)
+    coarse = cut_of(steady(case, v_0, Resolution(32, 128, "full_slip", True)))
+    end = steady(case, v_0, Resolution(512, 512, "full_slip", True))
+    gap = end.scaled.springs.gap
+    mode, *_ = end.stepper.of_springs(end.orbit.state, end.scaled.springs)
+    back = gap[(mode == State.SLIP_BACK).any(axis=0)].min()
+    assert coarse == pytest.approx(back, abs=0.02)  # 32 springs stand up to 0.1 apart
+    assert cut_of(end) == pytest.approx(back, abs=np.diff(np.sort(gap)).max())
+
+
+def test_springs_beside_the_row_move_as_those_in_it():
+    case, share = LOST["body"]
+    end = steady(case, share * mdr.critical_velocity(case), Resolution(32, 128, "full_slip", True))
+    row = end.scaled.springs
+    some = Springs(row.gap[::-3].copy(), row.w[::-3].copy())
+    for of_row, of_some in zip(*(end.stepper.of_springs(end.orbit.state, one) for one in (row, some)), strict=True):
+        assert_allclose(of_some, of_row[:, ::-3], atol=1e-9)
 
 
 @pytest.mark.parametrize("T", [0.0, 0.5])

@@ -17,7 +17,7 @@ from mdr.march.dynamics import loop
 from mdr.march.dynamics.body import N_BODY, RATE, Body, U
 from mdr.march.dynamics.dimensionless import AxisMotion, ScaledContact
 from mdr.march.dynamics.kernel import new_trace, trace_of
-from mdr.march.dynamics.state import UNKNOWN, MarchState, within_friction
+from mdr.march.dynamics.state import UNKNOWN, MarchState, on_other_springs, within_friction
 from mdr.spring.contact import Springs
 from mdr.spring.contact_modes import SLIP
 from mdr.spring.energies import CONTACT_IMPULSE, LEAST_SLIP, N_SUMS, SHAKE_WORK, STICK_IMPULSE
@@ -229,15 +229,18 @@ class Stepper:
             sums[SHAKE_WORK] += self._work_of(scaled.drive.across, trace.area.imag, trace.moment.imag)
         return seen
 
-    def forces_of(self, state: MarchState, i: int) -> tuple[Array, Array]:
-        """Force and normal force of a spring over its stiffness at the end of each step, under Coulomb's limit."""
-        scaled, n_t = self.scaled, self.scaled.drive.steps
-        one, trace = slice(i, i + 1), self._marched(state.copy(), 1)
-        seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_t, 4)), *np.zeros((5, n_t, 1)))
-        springs = Springs(scaled.springs.gap[one], scaled.springs.w[one])
-        e, s = (np.ascontiguousarray(of[:, one]) for of in (state.e, state.s))
-        loop.look(e, s, springs, None, self.motion, scaled.law, trace, seen)
-        return seen.f[:, 0], seen.f_z[:, 0]
+    def of_springs(self, state: MarchState, springs: Springs) -> tuple[Array, Array, Array]:
+        """Mode, force and normal force over stiffness (n_t, n) at the end of each step, under Coulomb's limit, of any
+        springs that come along without weight in a periodic motion, from its state on.
+        """
+        scaled, n_t, n = self.scaled, self.scaled.drive.steps, springs.gap.size
+        row, trace = scaled.springs, self._marched(state.copy(), 1)
+        xs = on_other_springs(state.x[None], row.gap, scaled.order, springs.gap, scaled.n_axes)
+        e, s = MarchState(xs[0], scaled.normal_of(springs).s.copy()).e, scaled.normal_of(springs).s.copy()
+        for _ in range(2):  # in the first they come to where they return to
+            seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_t, 4)), *np.zeros((5, n_t, n)))
+            loop.look(e, s, springs, None, self.motion, scaled.law, trace, seen)
+        return seen.mode, seen.f, seen.f_z
 
     def _work_of(self, axis: AxisMotion, area: Array, moment: Array) -> float:
         """Work of a shake, which goes on parabolas."""

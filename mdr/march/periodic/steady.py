@@ -7,7 +7,7 @@ periods from full slip; those with arms, and those in the plane, are solved for 
 All this rests on friction that does not fall as springs are let go: two motions never move apart, so that the state is
 one of one period and shooting has a gain; that of an elastic spring is below full slip (`_after_two_periods`); the map
 of a period does not jump (each_alone.py); no force is above that of full slip (`within_friction`); what springs lack
-that do not slip back is alike (`alike_to`). Where friction falls, repeats.py marches.
+that do not slip back is alike (`cut_of`, order.py). Where friction falls, repeats.py marches.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Resolution(NamedTuple):
     accuracy: float = BUDGET  #: bound on the error of cof/mu_0 that is asked for
     free: tuple[bool, bool] = (False, False)  #: whether springs and steps are doubled until the error is within it
     bounded: bool = True  #: whether companions, runs of fewer springs and steps, bound the error
-    alike: float = np.inf  #: gap [amplitudes] at which the row of springs is cut, of `alike_to`; infinite: not cut
+    cut: float = np.inf  #: gap [amplitudes] at which the row of springs is cut (order.py); infinite: not cut
 
     def of_size(self, steps: int | None = None, n_springs: int | None = None) -> Resolution:
         """The resolution of a companion with these steps or springs, at least 16 of each; it keeps no record."""
@@ -194,29 +194,6 @@ def resolves(scaled: ScaledContact, resolution: Resolution) -> None:
         )
 
 
-def alike_to(end: MarchEnd) -> float:
-    """Gap [amplitudes] beyond which springs that keep contact slip back, as a periodic state shows. inf: no spring
-    slips back, or not implemented for this case, such as for friction that falls. -inf: all springs slip back.
-
-    Springs slip back under a body that swings back. One that does not slip back has the force f = L[s] - D, where
-    D >= 0 is what it lacks to slip forward. D is the same for all of these, and their L[s] differ by a constant. So
-    the last that does not slip back has a gap that exceeds that of the deepest by the least (f + L[s])/2 of a period.
-    """
-    scaled, stepper = end.scaled, end.stepper
-    as_one = scaled.body.rigid or scaled.springs.gap.size == 1
-    if as_one or scaled.n_axes == 2 or scaled.drive.is_shaken or scaled.slow.rho or not scaled.limit.gap_tells:
-        return np.inf
-    if scaled.limit.falls:  # a spring that is let go forgets what it lacked
-        return np.inf
-    deepest = int(np.argmin(scaled.springs.gap))
-    gap = float(scaled.springs.gap[deepest])
-    f, f_z = stepper.forces_of(end.orbit.state, deepest)
-    reach = gap + 0.5 * float((f + f_z).min())
-    if reach > end.case.kept_gap - scaled.drive.h**2 / 4:  # what nodes may miss of the least value
-        return np.inf
-    return reach if reach > gap else -np.inf
-
-
 def check(case: SlidingContact, v_0: float) -> None:
     """Refuse an amplitude too small, and a shake or a velocity too large, for the digits of a march."""
     cycle = case.cycle
@@ -293,17 +270,17 @@ def too_coarse(steps: int) -> ValueError:
 def at_hand(case: SlidingContact, resolution: Resolution) -> tuple[SpringArray, ScaledContact]:
     """The springs and the scaled contact, kept: runs at other velocities share them."""
     lump = resolution.lump and resolution.start == "full_slip"
-    return _scaled(case, resolution.n_springs, resolution.steps, lump, resolution.alike)
+    return _scaled(case, resolution.n_springs, resolution.steps, lump, resolution.cut)
 
 
 @remembered(maxsize=8)
-def _springs(case: SlidingContact, n_springs: int, alike: float) -> SpringArray:
-    return springs_of(case, n_springs, alike)
+def _springs(case: SlidingContact, n_springs: int, cut: float) -> SpringArray:
+    return springs_of(case, n_springs, cut)
 
 
 @remembered(maxsize=24)
 def _scaled(
-    case: SlidingContact, n_springs: int, steps: int, lump: bool, alike: float
+    case: SlidingContact, n_springs: int, steps: int, lump: bool, cut: float
 ) -> tuple[SpringArray, ScaledContact]:
-    springs = _springs(case, n_springs, alike)
+    springs = _springs(case, n_springs, cut)
     return springs, ScaledContact.of(case, springs, steps, lump)

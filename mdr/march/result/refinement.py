@@ -31,6 +31,7 @@ import numpy as np
 from mdr.case.contact import SlidingContact
 from mdr.march.dynamics.body import RESOLVED
 from mdr.march.dynamics.dimensionless import fast_ratio, stopping_rate
+from mdr.march.periodic.order import cut_of
 from mdr.march.periodic.repeats import beside_jump
 from mdr.march.periodic.shooting import FULL
 from mdr.march.periodic.steady import (
@@ -39,7 +40,6 @@ from mdr.march.periodic.steady import (
     MarchEnd,
     Resolution,
     accuracy_of,
-    alike_to,
     at_hand,
     check,
     steady,
@@ -162,12 +162,12 @@ class Companions(NamedTuple):
     less: Resolution  #: three quarters of half of both
 
 
-def companions(case: SlidingContact, resolution: Resolution, alike: float | None = None) -> Companions:
-    """Those beside a run. alike: gap at which the rows of fewer springs are cut, if not that of the run."""
+def companions(case: SlidingContact, resolution: Resolution, cut: float | None = None) -> Companions:
+    """Those beside a run. cut: gap at which the rows of fewer springs are cut, if not that of the run."""
     shares = (4, 8), (4, 4), (6, 6), (3, 3)  # eighths of steps and springs
     n_t, n = resolution.steps, resolution.n_springs
-    cut = resolution if alike is None else resolution._replace(alike=alike)
-    rows, more = (resolution, cut, cut, cut), _one_each(case)
+    fewer = resolution if cut is None else resolution._replace(cut=cut)
+    rows, more = (resolution, fewer, fewer, fewer), _one_each(case)
     if case.friction.stick > 1 and at_hand(case, resolution.of_size(n_t // 2 + more))[1].light:
         n_t *= FINER
     return Companions(*(row.of_size(k * n_t // 8 + more, m * n // 8) for row, (k, m) in zip(rows, shares, strict=True)))
@@ -239,8 +239,8 @@ def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed)
-        if finer.n_springs > resolution.n_springs and (alike := _to_be_cut(main)) is not None:
-            finer = resolution._replace(alike=alike)
+        if finer.n_springs > resolution.n_springs and (cut := _to_be_cut(main)) is not None:
+            finer = resolution._replace(cut=cut)
         if finer == resolution:
             return finest
         resolution = finer
@@ -251,10 +251,10 @@ def _to_be_cut(main: MarchEnd) -> float | None:
     fewest springs would not have two for each piece of it.
     """
     fewest = max(3 * main.resolution.n_springs // 8, 16)
-    if main.resolution.alike < np.inf or fewest < 2 * (len(main.case.indenter.kinks) + 3):
+    if main.resolution.cut < np.inf or fewest < 2 * (len(main.case.indenter.kinks) + 3):
         return None
-    alike = alike_to(main)
-    return alike if alike < np.inf else None
+    cut = cut_of(main)
+    return cut if cut < np.inf else None
 
 
 def _finer(main: MarchEnd, missed: Missed) -> Resolution:

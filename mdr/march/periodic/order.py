@@ -1,0 +1,82 @@
+"""Where along the row the order of modes changes: the gap from which on springs slip back.
+
+There the friction of a spring has a kink in its gap, and its derivatives jump: a row without a cut at this place misses
+friction by second order in the number of springs, derivatives of friction by first order.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.march.periodic.steady import MarchEnd
+from mdr.spring.contact import Springs
+from mdr.spring.contact_modes import SLIP_BACK, STICK
+from mdr.tools.arrays import Array
+
+CLOSER = 8  #: times as near, in each pass, as trial springs stand to the place that was found before
+PASSES = 2
+
+
+def cut_of(end: MarchEnd) -> float:
+    """Gap [amplitudes] from which on springs slip back, as a periodic state shows. inf: no spring slips back, or not
+    implemented for this case, such as for friction that falls. -inf: all springs slip back.
+
+    Springs slip back under a body that swings back. One that never loses contact and does not slip back has the force
+    f = L[s] - D, where D >= 0 is what it lacks to slip forward. D is the same for all of these, and their L[s] differ
+    by a constant. So the last that does not slip back has a gap that exceeds that of the deepest by the least
+    (f + L[s])/2 of a period. Where all of these stay, and under a shake, the place is found by springs on trial.
+    """
+    scaled, stepper = end.scaled, end.stepper
+    as_one = scaled.springs.gap.size == 1 or (scaled.body.rigid and not scaled.drive.is_shaken)
+    if as_one or scaled.n_axes == 2 or scaled.slow.rho or scaled.limit.falls or not scaled.limit.gap_tells:
+        return np.inf  # where friction falls, a spring that is let go forgets what it lacked
+    if not scaled.drive.is_shaken:
+        deepest = int(np.argmin(scaled.springs.gap))
+        gap = float(scaled.springs.gap[deepest])
+        _, f, f_z = stepper.of_springs(end.orbit.state, Springs(*(of[[deepest]] for of in scaled.springs)))
+        reach = gap + 0.5 * float((f + f_z).min())
+        if reach <= end.case.kept_gap - scaled.drive.h**2 / 4:  # what nodes may miss of the least value
+            return reach if reach > gap else -np.inf
+    return _on_trial(end)
+
+
+def _on_trial(end: MarchEnd) -> float:
+    """The same, where what springs bear less than their limit backwards comes to zero as the gap grows.
+
+    inf as well where springs first slip back at the instant at which they leave: there is no kink.
+    """
+    gaps = end.scaled.springs.gap[end.scaled.order]
+    least, slips = _spare(end, gaps)
+    if slips[0] or not slips.any():
+        return -np.inf if slips[0] else np.inf
+    first, found = int(slips.argmax()), np.inf
+    low, high = float(gaps[first - 1]), float(gaps[first])
+    gaps, least = (of[max(first - 4, 0) : first - 1] for of in (gaps, least))  # the last may slip back within a step
+    for k in range(1, 1 + PASSES):
+        if gaps.size < 2 or not np.isfinite(least).all():
+            break
+        found = min(max(_zero(gaps, least), low), high)
+        gaps = found - (high - low) / CLOSER**k * np.array([3.0, 2.0, 1.0])
+        least, _ = _spare(end, gaps)
+    return found
+
+
+def _spare(end: MarchEnd, gaps: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """What springs of these gaps (n,) bear less than their limit backwards, at the instant in stick at which this is
+    least: infinite where there is none; and whether they slip back.
+    """
+    mode, f, f_z = end.stepper.of_springs(end.orbit.state, Springs(gaps, np.ones(gaps.size)))
+    spare, sticks = f + f_z, mode == STICK
+    before, after = np.roll(spare, 1, axis=0), np.roll(spare, -1, axis=0)
+    within = sticks & np.roll(sticks, 1, axis=0) & np.roll(sticks, -1, axis=0)
+    bend = before - 2 * spare + after
+    is_least = within & (spare <= before) & (spare <= after) & (bend > 0)
+    vertex = spare - (after - before) ** 2 / (8 * np.where(is_least, bend, 1.0))  # of the parabola through three steps
+    least = np.where(is_least, vertex, np.inf).min(axis=0)
+    return least, (mode == SLIP_BACK).any(axis=0) | (least <= 0)  # some slip back within a step alone
+
+
+def _zero(x: Array, y: Array) -> float:
+    """Where the polynomial through some points comes to zero, beyond the last: x as a polynomial of y."""
+    return float(sum(x[i] * np.prod([y[j] / (y[j] - y[i]) for j in range(x.size) if j != i]) for i in range(x.size)))
