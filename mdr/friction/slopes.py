@@ -7,15 +7,19 @@ above. With the slope S(h) to one side these are 2 S(h) - S(2h). Of a smooth f t
 brings about; at a corner by what the slope jumps.
 
 In closed form D(h) + (D(h) - D(2h))/3 is the answer. Elsewhere f is friction of runs of one resolution, that of a run
-as accurate as asked for, and D(h) the answer. What springs and steps miss is almost the same in all these runs, and
-falls out. Larger differences, D(2h) and D(3h), are of runs with 1/2 and with 3/8 of both numbers: how far neighbours
-are apart, one and a half times the greater of two, bounds what springs and steps leave of the error, too.
+as accurate as asked for, whose row is cut where springs begin to slip back (order.py), and D(h) the answer. What
+springs and steps miss of friction is almost the same in all these runs, and falls out. For what is left of it the
+larger differences are of coarser runs, with 1/2 of both numbers above and 3/8 below: D(2h), one and a half times, tells
+of what both miss, the slopes to either side of what one misses more than the other. No derivative is known better than
+friction itself, each over its scale. Where the error is too large, the same is asked of runs with twice the springs and
+steps.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -24,16 +28,18 @@ from mdr.case.contact import SlidingContact
 from mdr.case.paths import facts_at
 from mdr.friction.cof_curve import counted, friction_at
 from mdr.friction.inputs import OF_RUN
+from mdr.march.periodic.order import cut_of
 from mdr.march.periodic.steady import MOST_ACCURATE, MarchEnd, Resolution, steady
-from mdr.march.result.refinement import UNEVENLY, companions, resolution_of, within
+from mdr.march.result.refinement import MOST_CHOSEN, UNEVENLY, companions, resolution_of, within
 from mdr.march.result.run import friction_of
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
-from mdr.tools.arrays import EPS, Array
+from mdr.tools.arrays import EPS
 from mdr.tools.notation import shown
 
 #: error up to which there is a derivative, over the greater of itself and the quantity over the input
-SURE = 0.01
+SURE = 1e-3
+AIM = 3e-4  #: the same from which on finer runs are asked, where that of second order is 1e-4
 
 
 class Function(NamedTuple):
@@ -44,6 +50,26 @@ class Function(NamedTuple):
     error: float  #: relative, by which values of cases close by scatter
 
 
+class Functions(NamedTuple):
+    """A quantity, as it is asked for in differences of one size, and of twice the size to either side."""
+
+    main: Function
+    below: Function
+    above: Function
+    missed: float = 0.0  #: relative, bound on what the numerics miss of the quantity itself
+    finer: Callable[[], Functions | None] = lambda: None  #: with finer numerics; None where there are none
+
+    @classmethod
+    def of_one(cls, function: Function) -> Functions:
+        """Of a quantity that is known in one way."""
+        return cls(function, function, function)
+
+    @property
+    def is_one(self) -> bool:
+        """Whether it is known in one way."""
+        return self.main is self.above
+
+
 class Slope(NamedTuple):
     """A derivative in SI, and its error; or why there is none."""
 
@@ -52,13 +78,13 @@ class Slope(NamedTuple):
     why: str = ""
 
 
-def closed_form(case: SlidingContact, law: Callable[[SlidingContact], float]) -> list[Function]:
+def closed_form(case: SlidingContact, law: Callable[[SlidingContact], float]) -> Functions:
     """A quantity that is good to rounding."""
-    return 2 * [Function(lambda one, _: law(one), float(law(case)), EPS)]
+    return Functions.of_one(Function(lambda one, _: law(one), float(law(case)), EPS))
 
 
-def friction(case: SlidingContact, v_0: float, accuracy: float) -> list[Function]:
-    """Friction at a velocity, and as it is known more coarsely: of runs at the resolution of one that is as accurate.
+def friction(case: SlidingContact, v_0: float, accuracy: float) -> Functions:
+    """Friction at a velocity: in closed form, or of runs at the resolution of one that is as accurate.
 
     Raises ValueError where it does not settle.
     """
@@ -71,7 +97,7 @@ def friction(case: SlidingContact, v_0: float, accuracy: float) -> list[Function
         cof, _, why = friction_at(one, speed, accuracy)
         return _settled(cof, why)
 
-    return 2 * [Function(of, value, error / full_cof(case))]
+    return Functions.of_one(Function(of, value, error / full_cof(case)))
 
 
 def _settled(cof: float, why: str) -> float:
@@ -81,20 +107,28 @@ def _settled(cof: float, why: str) -> float:
     return cof
 
 
-def _runs(case: SlidingContact, v_0: float, accuracy: float) -> list[Function]:
+def _runs(case: SlidingContact, v_0: float, accuracy: float) -> Functions:
     """Friction of runs at three resolutions, each begun in the periodic state that one of the case has come to."""
     known, speed = _forward(case, v_0)
     end = within(known, speed, resolution_of(known, None, None, accuracy))
     found = friction_of(end)
     _settled(found.cof, "" if found.settled else f"the run did not settle: {found.why}")
-    beside, functions = companions(known, end.resolution), []
-    is_full = end.slips_fully and not end.error  # of finer runs, too; coarser ones may stick
-    for size in (end.resolution, *(() if is_full else (beside.half, beside.less))):
-        resolution = size._replace(bounded=False, accuracy=MOST_ACCURATE)
-        end = steady(known, speed, resolution, near=end.to_begin_from)
-        of = _of_resolution(resolution, end)
-        functions.append(Function(of, _of_end(end, v_0), end.settling.spread))
-    return 2 * functions if is_full else functions
+    missed = (end.error or 0.0) / max(abs(end.cof), EPS)
+
+    def function(resolution: Resolution) -> Function:
+        of_case = steady(known, speed, resolution, near=end.to_begin_from)
+        return Function(_of_resolution(resolution, of_case), _of_end(of_case, v_0), of_case.settling.spread)
+
+    def at(main: Resolution, finer: Callable[[], Functions | None]) -> Functions:
+        beside = companions(known, main)
+        return Functions(function(main), function(beside.less), function(beside.half), missed, finer)
+
+    main = end.resolution._replace(bounded=False, accuracy=MOST_ACCURATE, cut=cut_of(end))
+    if end.slips_fully and not end.error:  # as finer runs do, but coarser ones may stick
+        return Functions.of_one(function(main))
+    twice = main.of_size(2 * main.steps, 2 * main.n_springs)
+    is_dear = twice.n_springs * twice.steps > MOST_CHOSEN
+    return at(main, cache(lambda: None if is_dear else at(twice, lambda: None)))
 
 
 def _forward(case: SlidingContact, v_0: float) -> tuple[SlidingContact, float]:
@@ -119,54 +153,52 @@ def _of_end(end: MarchEnd, v_0: float) -> float:
     return math.copysign(full_cof(end.case), v_0) * end.cof
 
 
-def slope(at: Callable[[float], SlidingContact], path: str, x: float, v_0: float, functions: list[Function]) -> Slope:
-    """The derivative with respect to an input, x in the case, which is `at` another value of it pulled by v_0.
-
-    functions: the quantity, and what it is in differences of twice the size, and so on.
+def slope(at: Callable[[float], SlidingContact], path: str, x: float, v_0: float, of: Functions) -> Slope:
+    """The derivative of a quantity with respect to an input, x in the case, which is `at` another value of it pulled by
+    v_0.
     """
-    main, here = functions[0], f"{path} = {shown(x, facts_at(path).unit)}"
+    here = f"{path} = {shown(x, facts_at(path).unit)}"
     if x == 0:
         rest = "the limit of a pull forward, which may be another than that of a pull back"
         return Slope(why=f"{here} is {rest if path == OF_RUN else 'zero: give a value of which a share can be varied'}")
-    if not np.isfinite(main.value):
+    if not np.isfinite(of.main.value):
         return Slope(why="it is infinite")
-    size = max(main.error, EPS) ** (1 / 3)
 
-    def to(value: float, function: Function) -> float:
+    def moved(value: float, function: Function) -> float:
         """Slope from the case to another value of the input."""
-        moved = function.of(at(value), value if path == OF_RUN else v_0)
-        return (moved - function.value) / (value - x)
+        there = function.of(at(value), value if path == OF_RUN else v_0)
+        return (there - function.value) / (value - x)
 
-    sides: list[Array] = []
-    told = []
-    for way, word in ((-1, "below"), (1, "above")):
+    found, unit = _of_sides(moved, x, of), abs(of.main.value / x)
+    if found.error > AIM * max(abs(found.value), unit) and (finer := of.finer()) is not None:
+        found = _of_sides(moved, x, finer)
+    is_sure = found.error <= SURE * max(abs(found.value), unit)
+    return found._replace(why="") if is_sure else Slope(why=f"{here}: slope {found.why}")
+
+
+def _of_sides(moved: Callable[[float, Function], float], x: float, of: Functions) -> Slope:
+    """The derivative at x of a quantity that has `moved` by so much for each unit at another value; what it is to
+    either side.
+    """
+    size, sides, told = max(of.main.error, EPS) ** (1 / 3), [], []
+    for way, word, wide in ((-1, "below", of.below), (1, "above", of.above)):
         try:
-            slopes = np.array([to(x + way * k * size * abs(x), one) for k, one in enumerate(functions, 1)])
+            near, far = (moved(x + way * k * size * abs(x), one) for k, one in ((1, of.main), (2, wide)))
         except ValueError as refusal:
             told.append(f"nothing {word}, as {refusal}")
         else:
-            sides.append(slopes)
-            told.append(f"{2 * slopes[0] - slopes[1]:.6g} {word}")
-    if len(sides) == 2:
-        below, above = sides
-        found = _across(below, above, main.value / x, size, is_one=functions[1] is main)
-        if not found.why:
-            return found
-        told.append(found.why)
-    return Slope(why=f"{here}: slope {', '.join(told)}")
-
-
-def _across(below: Array, above: Array, unit: float, size: float, is_one: bool) -> Slope:
-    """The derivative between slopes to both sides; is_one: whether of one function; unit: it over the input."""
-    across = (below + above) / 2
-    moved = (1.0 if is_one else UNEVENLY) * np.abs(np.diff(across)).max()
+            sides.append((near, far))
+            told.append(f"{2 * near - far:.6g} {word}")
+    if len(sides) < 2:
+        return Slope(why=", ".join(told))
+    below, above = sides
+    near, far = ((one + two) / 2 for one, two in zip(below, above, strict=True))
+    apart = (1.0 if of.is_one else UNEVENLY) * abs(near - far)
     jump = abs((2 * above[0] - above[1]) - (2 * below[0] - below[1])) / 2
-    value = across[0] + (across[0] - across[1]) / 3 if is_one else across[0]
-    error = moved + jump + EPS / size * abs(unit)
-    if error <= SURE * max(abs(value), abs(unit)):
-        return Slope(float(value), float(error))
-    if jump > moved:
-        return Slope(why="as there is a corner or a jump here")
-    way_out = "" if is_one else ", with ever fewer springs and steps: ask for a smaller accuracy"
-    steps = ", ".join(f"{one:.6g}" for one in across)
-    return Slope(why=f"{steps} across 1, 2, ... times {size:.1e} of it to either side{way_out}")
+    value, unit = near + (near - far) / 3 if of.is_one else near, abs(of.main.value / x)
+    if jump > apart:
+        told.append("as there is a corner or a jump here")
+    else:
+        way_out = "" if of.is_one else ", with fewer springs and steps: ask for a smaller accuracy"
+        told.append(f"{near:.6g}, {far:.6g} across 1, 2 times {size:.1e} of it to either side{way_out}")
+    return Slope(value, apart + jump + (EPS / size + of.missed) * unit, ", ".join(told))

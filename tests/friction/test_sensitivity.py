@@ -11,7 +11,7 @@ from horn import HORN
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.friction.slopes import Function, slope
+from mdr.friction.slopes import Function, Functions, slope
 from mdr.given.case_file import case_of
 from mdr.march.periodic.steady import MOST_ACCURATE, Resolution, steady
 from mdr.tools.arrays import EPS
@@ -169,7 +169,9 @@ def test_a_corner_and_a_jump_are_told_with_both_sides():
         return 1.0 * (x > 3.0)
 
     for law, words in ((bent, "slope -1 below, 1 above, as there is a corner"), (jumps, "or a jump here")):
-        found = slope(lambda x: x, "v_0", 3.0, 0.0, 2 * [Function(lambda _, x, law=law: law(x), law(3.0), EPS)])
+        found = slope(
+            lambda x: x, "v_0", 3.0, 0.0, Functions.of_one(Function(lambda _, x, law=law: law(x), law(3.0), EPS))
+        )
         assert np.isnan(found.value)
         assert words in found.why
 
