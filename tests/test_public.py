@@ -119,7 +119,10 @@ RECORDS = {
     "RandomCof": "v_0 cof standard_error cof_error realisations",
     "CofCurve": "v_0 cof cof_error settled stick_share v_c",
     "friction.find.Found": "path values why cases",
-    "friction.sensitivity.Sensitivity": "v_0 inputs cof d_cof v_c d_v_c static_cof d_static_cof error why",
+    "friction.sensitivity.Sensitivity": (
+        "v_0 inputs cof d_cof v_c d_v_c static_cof d_static_cof band d_band no_load_velocity d_no_load_velocity "
+        "error why"
+    ),
     "studies.propagate.Propagated": "v_0 inputs spread cof cof_sd cof_share v_c v_c_sd v_c_share samples why",
     "friction.tolerance.Tolerance": "by v_0 base_cof base_v_c inputs cof v_c warnings",
     "friction.measured_velocity.MeasuredVelocity": "v_c low high kind why",

@@ -478,7 +478,7 @@ SAYINGS = {
     'sensitivity(CASE, held={"hold": "depth"})': "hold says what stays of a load",
     'sensitivity("CASE")': "SlidingContact",
     'sensitivity(CASE, fields=["v_0"])': "v_0 is no parameter of this case",
-    'sensitivity(CASE, 1e-4).elasticity("load")': "of must be one of cof, v_c, static_cof, got 'load'",
+    'sensitivity(CASE, 1e-4).elasticity("load")': "of must be one of cof, v_c, static_cof, band,",
     "closed_forms.rigid_pull.average_friction(CASE, 1e-3)": "rigid pull",
     "closed_forms.rigid_pull.average_friction(replace(RIGID, material=SOLID), 1e-4)": "Kelvin material, got",
     # spectra, waveforms and their laws

@@ -24,6 +24,7 @@ from mdr.commands.output import Exit, answer, picked, refusals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.find import searched_path
 from mdr.friction.inputs import OF_RUN
+from mdr.friction.sensitivity import QUANTITIES
 from mdr.given.case_file import Said
 from mdr.march.result.run import power_text
 from mdr.studies.propagate import LEAST
@@ -110,15 +111,18 @@ def add_options_of_sensitivity(command: argparse.ArgumentParser) -> None:
     command.usage = "%(prog)s case.toml [--v-0 velocity] [options]"
     _add_fields(command)
     add_accuracy(command, "bound on the error of the COF, whose springs and steps are taken, over full friction")
+    add_output(command, "sensitivity.csv", "sensitivity.png", "sensitivity.svg")
 
 
 def sensitivity(args: argparse.Namespace, asked: Said) -> int:
-    """Print derivatives in per cent per per cent; in JSON in SI."""
+    """Write and print derivatives in per cent per per cent; in JSON in SI."""
+    make_folder(args)
     with refusals():
         v_0 = args.v_0 and args.v_0.on(asked.case)
         found = mdr.sensitivity(asked.case, v_0, args.fields, held=asked.held, accuracy=args.accuracy)
-    names = ("cof", "d_cof", "v_c", "d_v_c", "static_cof", "d_static_cof")
+    names = [name for quantity in QUANTITIES for name in (quantity, f"d_{quantity}")]
     answer(args, picked(found, "v_0", "inputs", *names, "error", "why"), str(found), asked.case)
+    write_found(args, found.plot, found.table(), str(found))
     return Exit.DONE
 
 

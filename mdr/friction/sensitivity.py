@@ -8,18 +8,24 @@ from functools import cache, partial
 from typing import Any
 
 from mdr.case.contact import SlidingContact, as_given
+from mdr.case.paths import facts_at
 from mdr.closed_forms.critical_velocity import critical_velocity
 from mdr.closed_forms.full_slip import static_cof
+from mdr.closed_forms.shaken_pull import CLOSED_FORM
 from mdr.friction.cof_curve import counted
 from mdr.friction.free_parameters import case_of
 from mdr.friction.inputs import OF_RUN, Inputs
-from mdr.friction.slopes import Slope, closed_form, friction, slope
+from mdr.friction.shaken import holding_band, no_load_velocity
+from mdr.friction.slopes import Functions, Slope, closed_form, friction, slope
 from mdr.given.vary import still_held, warn_of_load
 from mdr.march.periodic.steady import BUDGET, accuracy_of
 from mdr.march.result.slide import LAW
 from mdr.normal.resolved import at_rest, resolved
+from mdr.plots.figures import Axes
 from mdr.tools.allowed import refusal_of
+from mdr.tools.arrays import SAME
 from mdr.tools.checks import finite
+from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
 from mdr.tools.progress import progress
@@ -29,8 +35,8 @@ Dictionary = Mapping[str, float]  #: by the path of an input
 
 
 @dataclass(frozen=True)
-class Sensitivity(Summarised):
-    """Friction, critical velocity and static friction of a case, with their derivatives in SI by the path of an input.
+class Sensitivity(Summarised, Tabled):
+    """Friction, critical velocity and what holds at rest of a case, with derivatives in SI by the path of an input.
 
     An input without a derivative is in none of the dictionaries but `why`.
     """
@@ -43,6 +49,10 @@ class Sensitivity(Summarised):
     d_v_c: Dictionary  #: its derivatives
     static_cof: float | None  #: limit of friction as v_0 -> 0 [-]; None where no closed form has it
     d_static_cof: Dictionary  #: its derivatives
+    band: float | None  #: width of the `holding_band` [-] of a shake; None without one, or without a closed form
+    d_band: Dictionary  #: its derivatives
+    no_load_velocity: float | None  #: [m/s] of a contact that a shake drives; None of others, or without a closed form
+    d_no_load_velocity: Dictionary  #: its derivatives
     error: Mapping[str, Dictionary]  #: of each derivative, in its unit: error["cof"]["v_0"]
     why: Mapping[str, Mapping[str, str]]  #: why there is no derivative: why["cof"]["v_0"]
 
@@ -51,7 +61,7 @@ class Sensitivity(Summarised):
 
         Parameters
         ----------
-        of : {"cof", "v_c", "static_cof"}
+        of : {"cof", "v_c", "static_cof", "band", "no_load_velocity"}
             The quantity.
 
         Returns
@@ -71,10 +81,45 @@ class Sensitivity(Summarised):
         found = {path: slope * self.inputs[path] / value for path, slope in slopes.items() if value}
         return dict(sorted(found.items(), key=lambda one: -abs(one[1])))
 
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw a bar for each input: by how many per cent a quantity grows for each per cent of it.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw the first of the quantities alone: friction, without a velocity v_c. None makes a new figure,
+            with a panel for each quantity.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where the first was drawn.
+        """
+        from mdr.plots.records import plot_sensitivity
+
+        known = {LABELS[name]: found for name in QUANTITIES if (found := self.elasticity(name))}
+        return plot_sensitivity(known, ax)
+
+    def table(self) -> str:
+        """A row for each input as CSV: its path and value, and of each quantity elasticity, derivative and its error.
+
+        Returns
+        -------
+        str
+            What `to_csv` writes. A cell is empty where there is no derivative.
+        """
+        known = [name for name in QUANTITIES if getattr(self, f"d_{name}")]
+        columns: dict[str, Any] = {"input": [*self.inputs], "unit": [facts_at(path).unit for path in self.inputs]}
+        columns["value"] = [*self.inputs.values()]
+        for name in known:
+            of = {"elasticity": self.elasticity(name), "d": getattr(self, f"d_{name}"), "error": self.error[name]}
+            for what, values in of.items():
+                columns[f"{what} {name}"] = [values.get(path, "") for path in self.inputs]
+        return csv_text(columns)
+
     def _summary(self) -> Summary:
         known = {name: self.elasticity(name) for name in QUANTITIES}
-        units = dict(zip(QUANTITIES, ("-", "m/s", "-"), strict=True))
-        values = {name: number(value, units[name]) for name in QUANTITIES if (value := getattr(self, name)) is not None}
+        values = {name: number(of, UNITS[name]) for name in QUANTITIES if (of := getattr(self, name)) is not None}
         rows: list[Row] = [("", *_pair(values))]
         for path in dict.fromkeys(path for one in known.values() for path in one):
             slopes = {name: round(one[path], 4) + 0.0 for name, one in known.items() if path in one}
@@ -93,8 +138,15 @@ def _pair(texts: Mapping[str, str]) -> tuple[str, str]:
     return first, ", ".join(others)
 
 
-QUANTITIES = ("cof", "v_c", "static_cof")
-LABELS = dict(zip(QUANTITIES, ("COF", "v_c", "static COF"), strict=True))
+LABELS = {
+    "cof": "COF",
+    "v_c": "v_c",
+    "static_cof": "static COF",
+    "band": "band",
+    "no_load_velocity": "no-load velocity",
+}
+UNITS = dict(zip(LABELS, ("-", "m/s", "-", "-", "m/s"), strict=True))
+QUANTITIES = tuple(LABELS)
 
 
 @offering
@@ -106,7 +158,7 @@ def sensitivity(
     held: Mapping[str, Any] | None = None,
     accuracy: float = BUDGET,
 ) -> Sensitivity:
-    """Derivatives in SI of friction, critical velocity and static friction with respect to each input of a case.
+    """Derivatives in SI of friction, critical velocity and what holds at rest with respect to each input of a case.
 
     Parameters
     ----------
@@ -126,7 +178,7 @@ def sensitivity(
     Returns
     -------
     Sensitivity
-        The three quantities, their derivatives with an error for each, and why an input has none.
+        The quantities, their derivatives with an error for each, and why an input has none.
 
     Raises
     ------
@@ -139,7 +191,8 @@ def sensitivity(
     -----
     A derivative is left out, and `why` says so, where the one from below is another than that from above, where one
     side cannot be, such as beyond nu = 0.5, where differences of two sizes disagree, and at v_0 = 0. It is given
-    where its error is within 1 % of itself or of the quantity over the input.
+    where its error is within 1e-3 of itself or of the quantity over the input. Beyond 3e-4, finer runs are asked.
+    Band and no-load velocity are asked for under a rigid pull, which has them in closed form.
 
     Examples
     --------
@@ -160,9 +213,7 @@ def sensitivity(
     kept = still_held(held or {}, ())
     case = case_of(case, kept)
     warn_of_load(kept, case)
-    asked = {"v_c": closed_form(case, critical_velocity)}
-    if not refusal_of(static_cof, case):
-        asked["static_cof"] = closed_form(case, static_cof)
+    asked = _at_rest(case) | {"v_c": closed_form(case, critical_velocity)}
     if v_0 is not None:
         v_0, _ = counted(LAW.seen(resolved(case), "sensitivity"), finite("v_0", v_0))
         asked["cof"] = friction(case, v_0, accuracy_of(accuracy))
@@ -176,16 +227,29 @@ def sensitivity(
             if path != OF_RUN or name == "cof":
                 found[name][path] = slope(at, path, inputs[path], v_0 or 0.0, functions)
     slopes = {name: {path: one for path, one in found[name].items() if not one.why} for name in QUANTITIES}
-    d_cof, d_v_c, d_static = ({path: one.value for path, one in slopes[name].items()} for name in QUANTITIES)
+    known: dict[str, Any] = {name: asked[name].main.value if name in asked else None for name in QUANTITIES}
+    known |= {f"d_{name}": {path: one.value for path, one in of_it.items()} for name, of_it in slopes.items()}
     return Sensitivity(
         v_0=v_0,
         inputs=inputs,
-        cof=asked["cof"].main.value if "cof" in asked else None,
-        d_cof=d_cof,
-        v_c=asked["v_c"].main.value,
-        d_v_c=d_v_c,
-        static_cof=asked["static_cof"].main.value if "static_cof" in asked else None,
-        d_static_cof=d_static,
-        error={name: {path: one.error for path, one in known.items()} for name, known in slopes.items()},
+        **known,
+        error={name: {path: one.error for path, one in of_it.items()} for name, of_it in slopes.items()},
         why={name: {path: one.why for path, one in found[name].items() if one.why} for name in QUANTITIES},
     )
+
+
+def _at_rest(case: SlidingContact) -> dict[str, Functions]:
+    """What has a closed form of what a contact does that is not pulled, or pulled ever slower."""
+    asked = {} if refusal_of(static_cof, case) else {"static_cof": closed_form(case, static_cof)}
+    if case.is_shaken and case in CLOSED_FORM:
+        if not holding_band(case).is_one_number:
+            asked["band"] = closed_form(case, _width)
+        if no_load_velocity(case):
+            asked["no_load_velocity"] = closed_form(case, no_load_velocity, SAME)
+    return asked
+
+
+def _width(case: SlidingContact) -> float:
+    """Of what a contact holds at rest [-]."""
+    band = holding_band(case)
+    return band.high - band.low

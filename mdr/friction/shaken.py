@@ -17,7 +17,7 @@ from mdr.case.domain import COULOMB, holds_for
 from mdr.case.pull import RigidPull
 from mdr.closed_forms.held_body import held_forward
 from mdr.closed_forms.shaken_pull import CLOSED_FORM
-from mdr.friction.cof_curve import cof_curve
+from mdr.friction.cof_curve import cof_curve, friction_at
 from mdr.march.periodic.steady import BUDGET, LEAST_ACCURATE, MOST_ACCURATE
 from mdr.march.result.slide import slide
 from mdr.normal.resolved import resolved
@@ -221,7 +221,7 @@ def _free(case: SlidingContact) -> float:
 def _cof(case: SlidingContact, v_0: float) -> float:
     """Friction at one velocity, that of a settled run."""
     if case in CLOSED_FORM:
-        return float(cof_curve(case, [v_0], accuracy=MOST_ACCURATE).cof[0])
+        return friction_at(case, v_0, MOST_ACCURATE)[0]
     run = slide(case, v_0)
     if not run.settled:
         raise ValueError(f"friction at {v_0:.6g} m/s is not known, as its run does not settle: {run.why}")

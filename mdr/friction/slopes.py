@@ -78,9 +78,9 @@ class Slope(NamedTuple):
     why: str = ""
 
 
-def closed_form(case: SlidingContact, law: Callable[[SlidingContact], float]) -> Functions:
-    """A quantity that is good to rounding."""
-    return Functions.of_one(Function(lambda one, _: law(one), float(law(case)), EPS))
+def closed_form(case: SlidingContact, law: Callable[[SlidingContact], float], error: float = EPS) -> Functions:
+    """A quantity in closed form; error: relative, to which values of cases close by are known."""
+    return Functions.of_one(Function(lambda one, _: law(one), float(law(case)), error))
 
 
 def friction(case: SlidingContact, v_0: float, accuracy: float) -> Functions:

@@ -1,5 +1,4 @@
-"""Figures of recorded and of random motion; of a tolerance: how far each input alone moves friction and v_c; of samples
-of both, where inputs have a standard deviation.
+"""Figures of recorded and of random motion, of how far each input moves friction and v_c, and of samples of both.
 
 Records are read by attribute only.
 """
@@ -78,6 +77,40 @@ def plot_tolerance(found: Any, ax: Axes | None = None) -> Axes:
         ax.invert_yaxis()
         ax.legend(loc="lower right")
     return ax
+
+
+def plot_sensitivity(known: Mapping[str, Mapping[str, float]], ax: Axes | None = None) -> Axes:
+    """Draw a bar for each elasticity, a panel for each quantity, what matters most to the first on top.
+
+    Parameters
+    ----------
+    known : mapping of str to mapping of str to float
+        By the name of a quantity its elasticities, by the path of the input.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw the first quantity alone. None makes a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Where the first quantity was drawn.
+    """
+    shown = dict([*known.items()][: None if ax is None else 1])
+    paths = list(dict.fromkeys(path for one in shown.values() for path in one))
+    with style():
+        if ax is None:
+            size = (4.6 + 2.2 * len(shown), 1.4 + 0.32 * len(paths))
+            _, row = subplots(1, max(len(shown), 1), sharey=True, squeeze=False, figsize=size, layout="constrained")
+        else:
+            row = np.array([[ax]])
+        for beside, (name, elasticity) in zip(row[0], shown.items(), strict=False):
+            lengths = np.array([elasticity.get(path, 0.0) for path in paths])
+            beside.barh(np.arange(len(paths)), lengths, color=np.where(lengths < 0, *COLOURS[:2]), height=0.6)
+            beside.axvline(0, color="0.3", linewidth=0.8, zorder=3)
+            beside.set_xlabel(f"{name.replace('v_c', '$v_c$')} [% per %]")
+        first: Axes = row[0, 0]
+        first.set_yticks(range(len(paths)), [_label(path) for path in paths])
+        first.invert_yaxis()
+    return first
 
 
 def _bars(ax: Axes, pairs: Mapping[str, tuple[float, float]], base: float, by: float, factor: float = 1.0) -> None:

@@ -60,14 +60,16 @@ def test_tolerance(capsys, sled, tmp_path):
     assert "load" in words_of(capsys, ["tolerance", sled, "--v-0", "10mm/s", "--fields", "load"]).out
 
 
-def test_sensitivity(capsys, sled):
-    command = ["sensitivity", sled, "--v-0", "10mm/s", "--fields", "load", "v_0"]
-    answer, said = json_of(capsys, [*command, "--json"]), read_said(sled)
+def test_sensitivity(capsys, sled, tmp_path):
+    command, folder = ["sensitivity", sled, "--v-0", "10mm/s", "--fields", "load", "v_0"], tmp_path / "out"
+    answer, said = json_of(capsys, [*command, "-o", str(folder), "--json"]), read_said(sled)
     found = mdr.sensitivity(said.case, 0.01, ["load", "v_0"], held=said.held)
     assert answer["d_cof"] == found.d_cof
     assert answer["error"]["cof"] == found.error["cof"]
     assert (answer["v_c"], answer["d_v_c"]) == (found.v_c, found.d_v_c)
     assert words_of(capsys, command).out == f"{found}\n"
+    assert (folder / "sensitivity.csv").read_text(encoding="utf-8").endswith(found.table())
+    assert {path.name for path in folder.iterdir()} == {"sensitivity.csv", "sensitivity.png", "sensitivity.svg"}
     alone = json_of(capsys, ["sensitivity", sled, "--json"])
     assert (alone["v_0"], alone["cof"], alone["d_cof"]) == (None, None, {})
     assert_allclose(alone["d_v_c"]["frequency"], found.v_c / 20e3)

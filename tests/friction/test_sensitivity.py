@@ -4,6 +4,7 @@ none.
 
 from dataclasses import replace
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from conftest import contact
@@ -214,10 +215,55 @@ def test_v_c_on_a_resonance_is_infinite_and_has_no_derivative():
     assert found.why["v_c"] == {"pull.k_x": "it is infinite"}
 
 
+def test_band_and_no_load_velocity_of_a_shaken_contact_are_those_of_differences():
+    def band(case):
+        held = mdr.holding_band(case)
+        return held.high - held.low
+
+    motion = mdr.NormalOscillation(u_z0=20e-6, du_z=15e-6, omega=300.0)
+    case = replace(RIGID, oscillation=motion, shake=mdr.InPlaneOscillation(omega=300.0, du_x=60e-6, phi_x=1.2))
+    weak = replace(case, shake=replace(case.shake, du_x=3e-6))
+    drives, holds = (mdr.sensitivity(one, fields=["du_x", "mu_0", "frequency", "E"]) for one in (case, weak))
+    assert (drives.band, drives.d_band) == (None, {})
+    assert (holds.no_load_velocity, holds.d_no_load_velocity) == (None, {})
+    assert drives.no_load_velocity == mdr.no_load_velocity(case)
+    assert holds.band == band(weak)
+    h = 1e-3
+    for found, name, law, one in (
+        (drives, "no_load_velocity", mdr.no_load_velocity, case),
+        (holds, "band", band, weak),
+    ):
+        x = one.shake.du_x
+        less, more = (law(with_value(one, "shake.du_x", x * (1 + k * h))) for k in (-1, 1))
+        powers, missed = elasticities(found, name)
+        beside = (more - less) / (2 * h) / getattr(found, name)
+        assert powers["shake.du_x"] == pytest.approx(beside, abs=missed["shake.du_x"] + h**2)
+        assert powers["material.E"] == pytest.approx(0, abs=missed["material.E"])  # of a rigid pull
+    powers, missed = elasticities(drives, "no_load_velocity")  # lengths in the plane, over mu_0, are what it knows
+    assert powers["shake.du_x"] + powers["mu_0"] == pytest.approx(1, abs=missed["shake.du_x"] + missed["mu_0"])
+
+
+def test_bars_and_table_have_each_quantity_and_input():
+    found = mdr.sensitivity(contact("cone", 10.0), 1e-4, ["E", "du_z", "mu_0", "v_0"])
+    ax = found.plot()
+    assert [one.get_xlabel() for one in ax.figure.axes] == ["COF [% per %]", "$v_c$ [% per %]", "static COF [% per %]"]
+    assert [bar.get_width() for bar in ax.patches] == pytest.approx([*found.elasticity().values()])
+    assert len(ax.get_yticks()) == 4
+    alone = mdr.sensitivity(contact("cone", 10.0)).plot(plt.figure().add_subplot())
+    assert alone.get_xlabel() == "$v_c$ [% per %]"
+    assert len(alone.figure.axes) == 1
+    head, *rows = found.table().splitlines()
+    names = [f"{what} {name}" for name in ("cof", "v_c", "static_cof") for what in ("elasticity", "d", "error")]
+    assert head.split(",") == ["input", "unit", "value", *names]
+    of_v_0 = dict(zip(head.split(","), rows[3].split(","), strict=True))
+    assert (of_v_0["input"], of_v_0["d v_c"]) == ("v_0", "")
+    assert float(of_v_0["d cof"]) == found.d_cof["v_0"]
+
+
 def test_it_prints_what_matters_most_first():
     found = mdr.sensitivity(contact("cone", 10.0), 1e-4, ["E", "du_z", "mu_0", "v_0"])
     lines = str(found).splitlines()
     assert lines[0] == "Sensitivity: per cent for each per cent of an input, at v_0 = 100 µm/s"
     assert [line.split()[0] for line in lines[2:]] == list(found.elasticity())
-    with pytest.raises(ValueError, match="of must be one of cof, v_c, static_cof, got 'load'"):
+    with pytest.raises(ValueError, match="of must be one of cof, v_c, static_cof, band, no_load_velocity, got"):
         found.elasticity("load")

@@ -205,11 +205,11 @@ class ScaledContact:
     @cached_property
     def normal(self) -> NormalPeriod:
         """The springs in their periodic normal motion."""
-        return self.normal_of(self.springs)
+        return _settled(self.springs, self.drive, self.law)
 
     def normal_of(self, springs: Springs) -> NormalPeriod:
         """Any springs in their periodic normal motion."""
-        return _settled(springs, self.drive, self.law)
+        return self.normal if springs is self.springs else _settled(springs, self.drive, self.law)
 
     @cached_property
     def limit(self) -> Limit:

@@ -236,10 +236,10 @@ class Stepper:
         scaled, n_t, n = self.scaled, self.scaled.drive.steps, springs.gap.size
         row, trace = scaled.springs, self._marched(state.copy(), 1)
         xs = on_other_springs(state.x[None], row.gap, scaled.order, springs.gap, scaled.n_axes)
-        e, s = MarchState(xs[0], scaled.normal_of(springs).s.copy()).e, scaled.normal_of(springs).s.copy()
+        start = MarchState(xs[0], scaled.normal_of(springs).s.copy())
         for _ in range(2):  # in the first they come to where they return to
             seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_t, 4)), *np.zeros((5, n_t, n)))
-            loop.look(e, s, springs, None, self.motion, scaled.law, trace, seen)
+            loop.look(start.e, start.s, springs, None, self.motion, scaled.law, trace, seen)
         return seen.mode, seen.f, seen.f_z
 
     def _work_of(self, axis: AxisMotion, area: Array, moment: Array) -> float:

@@ -46,27 +46,29 @@ def _on_trial(end: MarchEnd) -> float:
 
     inf as well where springs first slip back at the instant at which they leave: there is no kink.
     """
-    gaps = end.scaled.springs.gap[end.scaled.order]
-    least, slips = _spare(end, gaps)
+    row, order = end.scaled.springs, end.scaled.order
+    least, slips = _spare(end, row)
+    gaps, least, slips = row.gap[order], least[order], slips[order]
     if slips[0] or not slips.any():
         return -np.inf if slips[0] else np.inf
     first, found = int(slips.argmax()), np.inf
     low, high = float(gaps[first - 1]), float(gaps[first])
-    gaps, least = (of[max(first - 4, 0) : first - 1] for of in (gaps, least))  # the last may slip back within a step
+    before = slice(max(first - 4, 0), first - 1)  # the last may slip back within a step
+    gaps, least = gaps[before], least[before]
     for k in range(1, 1 + PASSES):
         if gaps.size < 2 or not np.isfinite(least).all():
             break
         found = min(max(_zero(gaps, least), low), high)
         gaps = found - (high - low) / CLOSER**k * np.array([3.0, 2.0, 1.0])
-        least, _ = _spare(end, gaps)
+        least, _ = _spare(end, Springs(gaps, np.ones(gaps.size)))
     return found
 
 
-def _spare(end: MarchEnd, gaps: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """What springs of these gaps (n,) bear less than their limit backwards, at the instant in stick at which this is
-    least: infinite where there is none; and whether they slip back.
+def _spare(end: MarchEnd, springs: Springs) -> tuple[Array, NDArray[np.bool_]]:
+    """What springs (n,) bear less than their limit backwards, at the instant in stick at which this is least: infinite
+    where there is none; and whether they slip back.
     """
-    mode, f, f_z = end.stepper.of_springs(end.orbit.state, Springs(gaps, np.ones(gaps.size)))
+    mode, f, f_z = end.stepper.of_springs(end.orbit.state, springs)
     spare, sticks = f + f_z, mode == STICK
     before, after = np.roll(spare, 1, axis=0), np.roll(spare, -1, axis=0)
     within = sticks & np.roll(sticks, 1, axis=0) & np.roll(sticks, -1, axis=0)
