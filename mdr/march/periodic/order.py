@@ -14,8 +14,7 @@ from mdr.spring.contact import Springs
 from mdr.spring.contact_modes import SLIP_BACK, STICK
 from mdr.tools.arrays import Array
 
-CLOSER = 8  #: times as near, in each pass, as trial springs stand to the place that was found before
-PASSES = 2
+NEARER = 8.0, 64.0  #: times as near as springs stand, trial springs in two passes to the place that was found before
 
 
 def cut_of(end: MarchEnd) -> float:
@@ -53,14 +52,14 @@ def _on_trial(end: MarchEnd) -> float:
         return -np.inf if slips[0] else np.inf
     first, found = int(slips.argmax()), np.inf
     low, high = float(gaps[first - 1]), float(gaps[first])
-    before = slice(max(first - 4, 0), first - 1)  # the last may slip back within a step
+    before = slice(max(first - 3, 0), first - 1)  # the last may slip back within a step
     gaps, least = gaps[before], least[before]
-    for k in range(1, 1 + PASSES):
-        if gaps.size < 2 or not np.isfinite(least).all():
+    for nearer in NEARER:
+        if gaps.size < 2 or not np.inf > least[0] > least[1]:
             break
-        found = min(max(_zero(gaps, least), low), high)
-        gaps = found - (high - low) / CLOSER**k * np.array([3.0, 2.0, 1.0])
-        least, _ = _spare(end, Springs(gaps, np.ones(gaps.size)))
+        found = min(max(float(gaps[1] + least[1] * (gaps[1] - gaps[0]) / (least[0] - least[1])), low), high)
+        gaps = found - (high - low) / nearer * np.array([2.0, 1.0])
+        least, _ = _spare(end, Springs(gaps, np.ones(2)))
     return found
 
 
@@ -77,8 +76,3 @@ def _spare(end: MarchEnd, springs: Springs) -> tuple[Array, NDArray[np.bool_]]:
     vertex = spare - (after - before) ** 2 / (8 * np.where(is_least, bend, 1.0))  # of the parabola through three steps
     least = np.where(is_least, vertex, np.inf).min(axis=0)
     return least, (mode == SLIP_BACK).any(axis=0) | (least <= 0)  # some slip back within a step alone
-
-
-def _zero(x: Array, y: Array) -> float:
-    """Where the polynomial through some points comes to zero, beyond the last: x as a polynomial of y."""
-    return float(sum(x[i] * np.prod([y[j] / (y[j] - y[i]) for j in range(x.size) if j != i]) for i in range(x.size)))
