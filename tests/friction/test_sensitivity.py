@@ -14,12 +14,14 @@ import mdr
 from mdr.case.paths import facts_at
 from mdr.friction.slopes import Function, Functions, slope
 from mdr.given.case_file import case_of
+from mdr.march.periodic.order import cut_of
 from mdr.march.periodic.steady import MOST_ACCURATE, Resolution, steady
 from mdr.tools.arrays import EPS
 
 BODY = contact("cone", 5.0, k_ratio=2.0, omega_0_ratio=1.6, c_ratio=0.1)
 KELVIN = contact("paraboloid", 5.0, T=0.3, k_ratio=0.5, omega_0_ratio=0.6, c_ratio=0.1)
 LOST = contact("paraboloid", 0.6, T=0.3, k_ratio=0.5, omega_0_ratio=0.6, c_ratio=0.1)
+BACK = contact("paraboloid", 1.56, k_ratio=0.3, omega_0_ratio=0.9, c_ratio=0.02)  # springs that leave slip back
 RIGID = contact("paraboloid", 4.0, T=0.3)
 ARMS = replace(contact("cone", 5.0), material=mdr.Prony(E_inf=3e6, arms=((2e6, 2e-3), (1e6, 2e-2)), nu=0.45))
 SHAKEN = replace(RIGID, shake=mdr.InPlaneOscillation(du_x=3e-6, omega=300.0))
@@ -104,14 +106,15 @@ def test_euler_s_relations_of_dimensionless_groups(name):
     assert abs(sum(powers[path] for path in wide) - 1) <= sum(missed[path] for path in wide) + 1e-9
 
 
-@pytest.mark.parametrize("name", ["body", "kelvin", "lost"])
-def test_derivatives_of_runs_are_those_of_runs_four_times_as_fine(name):
-    case = CONTACTS[name]
+@pytest.mark.parametrize("case", [BODY, KELVIN, LOST, BACK], ids=["body", "kelvin", "lost", "back"])
+def test_derivatives_of_runs_are_those_of_runs_four_times_as_fine(case):
+    """Within the error. Springs without a cut where they slip back miss several times as much as is allowed here."""
     v_0 = half_speed(case)
     fields = ["du_z", "m", "v_0"]
     found = mdr.sensitivity(case, v_0, fields)
     run = mdr.slide(case, v_0)
     fine = Resolution(4 * run.n_springs, 4 * run.steps_per_period, "full_slip", True, 0, MOST_ACCURATE, bounded=False)
+    fine = fine._replace(cut=cut_of(steady(case, v_0, fine)))
     for path, x in found.inputs.items():
         h = 1e-3
         at = [
@@ -123,7 +126,7 @@ def test_derivatives_of_runs_are_those_of_runs_four_times_as_fine(name):
         beside = (at[1] - at[0]) / (2 * h * x)
         unit = found.cof / x
         assert abs(found.d_cof[path] - beside) <= found.error["cof"][path] + 1e-6 * unit  # of the size, h²
-        assert found.error["cof"][path] <= 2e-3 * max(unit, abs(beside))
+        assert found.error["cof"][path] <= 1e-3 * max(unit, abs(beside))
 
 
 def with_value(case, path, value):
