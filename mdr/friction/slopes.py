@@ -169,17 +169,28 @@ def slope(at: Callable[[float], SlidingContact], path: str, x: float, v_0: float
         there = function.of(at(value), value if path == OF_RUN else v_0)
         return (there - function.value) / (value - x)
 
-    found, unit = _of_sides(moved, x, of), abs(of.main.value / x)
+    found, unit, lasts = _of_sides(moved, x, of), abs(of.main.value / x), 0.0
     if found.error > AIM * max(abs(found.value), unit) and (finer := of.finer()) is not None:
-        found = _of_sides(moved, x, finer)
-    is_sure = found.error <= SURE * max(abs(found.value), unit)
-    return found._replace(why="") if is_sure else Slope(why=f"{here}: slope {found.why}")
+        lasts, found = found.jump / 2, _of_sides(moved, x, finer)  # a corner is no less in finer runs
+    if found.error <= SURE * max(abs(found.value), unit):
+        return Slope(found.value, found.error)
+    why = "as there is a corner or a jump here" if found.jump > max(found.apart, lasts) else found.across
+    return Slope(why=f"{here}: slope {', '.join(filter(None, (*found.told, why)))}")
 
 
-def _of_sides(moved: Callable[[float, Function], float], x: float, of: Functions) -> Slope:
-    """The derivative at x of a quantity that has `moved` by so much for each unit at another value; what it is to
-    either side.
-    """
+class _Sides(NamedTuple):
+    """A derivative between the slopes to both sides."""
+
+    told: tuple[str, ...]  #: what there is to either side
+    value: float = np.nan
+    apart: float = np.nan  #: difference to that of twice the size, as it counts
+    jump: float = np.nan  #: half of what the derivatives from above and from below differ
+    error: float = np.nan
+    across: str = ""  #: what there is to both sides together
+
+
+def _of_sides(moved: Callable[[float, Function], float], x: float, of: Functions) -> _Sides:
+    """The derivative at x of a quantity that has `moved` by so much for each unit at another value."""
     size, sides, told = max(of.main.error, EPS) ** (1 / 3), [], []
     for way, word, wide in ((-1, "below", of.below), (1, "above", of.above)):
         try:
@@ -190,15 +201,17 @@ def _of_sides(moved: Callable[[float, Function], float], x: float, of: Functions
             sides.append((near, far))
             told.append(f"{2 * near - far:.6g} {word}")
     if len(sides) < 2:
-        return Slope(why=", ".join(told))
+        return _Sides(tuple(told))
     below, above = sides
     near, far = ((one + two) / 2 for one, two in zip(below, above, strict=True))
     apart = (1.0 if of.is_one else UNEVENLY) * abs(near - far)
     jump = abs((2 * above[0] - above[1]) - (2 * below[0] - below[1])) / 2
-    value, unit = near + (near - far) / 3 if of.is_one else near, abs(of.main.value / x)
-    if jump > apart:
-        told.append("as there is a corner or a jump here")
-    else:
-        way_out = "" if of.is_one else ", with fewer springs and steps: ask for a smaller accuracy"
-        told.append(f"{near:.6g}, {far:.6g} across 1, 2 times {size:.1e} of it to either side{way_out}")
-    return Slope(value, apart + jump + (EPS / size + of.missed) * unit, ", ".join(told))
+    way_out = "" if of.is_one else ", with fewer springs and steps: ask for a smaller accuracy"
+    return _Sides(
+        told=tuple(told),
+        value=near + (near - far) / 3 if of.is_one else near,
+        apart=apart,
+        jump=jump,
+        error=apart + jump + (EPS / size + of.missed) * abs(of.main.value / x),
+        across=f"{near:.6g}, {far:.6g} across 1, 2 times {size:.1e} of it to either side{way_out}",
+    )
