@@ -1,18 +1,16 @@
 """Derivatives of friction, and of what is in closed form, with respect to one input of a case.
 
 Each is a central difference, D(h) = (f(x + h) - f(x - h))/2h. An error of f moves it by its share over h, and it misses
-the derivative by h²: so h, over x, is the cube root of the relative error of f. D(2h) misses four times as much. The
-error is |D(h) - D(2h)|, what rounding leaves, and half of the difference between the derivatives from below and from
-above. With the slope S(h) to one side these are 2 S(h) - S(2h). Of a smooth f they differ by no more than its error
-brings about; at a corner by what the slope jumps.
+the derivative by h²: so h, over x, is the cube root of the relative error of f. The slopes S(2h) to either side should
+be what the curvature, of S(h) to both sides, makes of S(h). What they differ from this by tells the error: h² misses
+a third of it, and at a corner each differs by half of what the slope jumps.
 
 In closed form D(h) + (D(h) - D(2h))/3 is the answer. Elsewhere f is friction of runs of one resolution, that of a run
 as accurate as asked for, whose row is cut where springs begin to slip back (order.py), and D(h) the answer. What
-springs and steps miss of friction is almost the same in all these runs, and falls out. For what is left of it the
-larger differences are of coarser runs, with 1/2 of both numbers above and 3/8 below: D(2h), one and a half times, tells
-of what both miss, the slopes to either side of what one misses more than the other. No derivative is known better than
-friction itself, each over its scale. Where the error is too large, the same is asked of runs with twice the springs and
-steps.
+springs and steps miss of friction is almost the same in all these runs, and falls out. For what is left of it S(2h) is
+of coarser runs, above with 1/2 of both numbers, below with 3/8: at second order they differ by 3 and by 6 times the
+error. Where the error is too large, the same is asked of runs with twice the springs and steps. No derivative is known
+better than friction itself, each over its scale.
 """
 
 from __future__ import annotations
@@ -30,7 +28,7 @@ from mdr.friction.cof_curve import counted, friction_at
 from mdr.friction.inputs import OF_RUN
 from mdr.march.periodic.order import cut_of
 from mdr.march.periodic.steady import MOST_ACCURATE, MarchEnd, Resolution, steady
-from mdr.march.result.refinement import MOST_CHOSEN, UNEVENLY, companions, resolution_of, within
+from mdr.march.result.refinement import BY_CHANCE, MOST_CHOSEN, MOST_GAINED, companions, resolution_of, within
 from mdr.march.result.run import friction_of
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
@@ -39,7 +37,8 @@ from mdr.tools.notation import shown
 
 #: error up to which there is a derivative, over the greater of itself and the quantity over the input
 SURE = 1e-3
-AIM = 3e-4  #: the same from which on finer runs are asked, where that of second order is 1e-4
+AIM = 3e-4  #: the same from which on finer runs are asked
+CHANCE = BY_CHANCE / MOST_GAINED  #: what the coarser of two differences counts, as in the bound of a run
 
 
 class Function(NamedTuple):
@@ -171,10 +170,10 @@ def slope(at: Callable[[float], SlidingContact], path: str, x: float, v_0: float
 
     found, unit, lasts = _of_sides(moved, x, of), abs(of.main.value / x), 0.0
     if found.error > AIM * max(abs(found.value), unit) and (finer := of.finer()) is not None:
-        lasts, found = found.jump / 2, _of_sides(moved, x, finer)  # a corner is no less in finer runs
+        lasts, found = found.jump / 2, _of_sides(moved, x, finer)  # a corner is as large in finer runs
     if found.error <= SURE * max(abs(found.value), unit):
         return Slope(found.value, found.error)
-    why = "as there is a corner or a jump here" if found.jump > max(found.apart, lasts) else found.across
+    why = "as there is a corner or a jump here" if found.jump > lasts else found.across
     return Slope(why=f"{here}: slope {', '.join(filter(None, (*found.told, why)))}")
 
 
@@ -183,9 +182,8 @@ class _Sides(NamedTuple):
 
     told: tuple[str, ...]  #: what there is to either side
     value: float = np.nan
-    apart: float = np.nan  #: difference to that of twice the size, as it counts
-    jump: float = np.nan  #: half of what the derivatives from above and from below differ
     error: float = np.nan
+    jump: float = np.nan  #: half of what the derivatives from above and from below differ; 0 where that is no corner
     across: str = ""  #: what there is to both sides together
 
 
@@ -204,14 +202,13 @@ def _of_sides(moved: Callable[[float, Function], float], x: float, of: Functions
         return _Sides(tuple(told))
     below, above = sides
     near, far = ((one + two) / 2 for one, two in zip(below, above, strict=True))
-    apart = (1.0 if of.is_one else UNEVENLY) * abs(near - far)
-    jump = abs((2 * above[0] - above[1]) - (2 * below[0] - below[1])) / 2
+    bend = (above[0] - below[0]) / 2
+    off_above, off_below = above[1] - above[0] - bend, below[1] - below[0] + bend
     way_out = "" if of.is_one else ", with fewer springs and steps: ask for a smaller accuracy"
     return _Sides(
         told=tuple(told),
         value=near + (near - far) / 3 if of.is_one else near,
-        apart=apart,
-        jump=jump,
-        error=apart + jump + (EPS / size + of.missed) * abs(of.main.value / x),
+        error=abs(off_above) + CHANCE * abs(off_below) + (EPS / size + of.missed) * abs(of.main.value / x),
+        jump=abs(off_above - off_below) / 2 if off_above * off_below < 0 else 0.0,
         across=f"{near:.6g}, {far:.6g} across 1, 2 times {size:.1e} of it to either side{way_out}",
     )
