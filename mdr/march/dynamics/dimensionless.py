@@ -207,10 +207,6 @@ class ScaledContact:
         """The springs in their periodic normal motion."""
         return _settled(self.springs, self.drive, self.law)
 
-    def normal_of(self, springs: Springs) -> NormalPeriod:
-        """Any springs in their periodic normal motion."""
-        return self.normal if springs is self.springs else _settled(springs, self.drive, self.law)
-
     @cached_property
     def limit(self) -> Limit:
         """The most that friction bears."""

@@ -229,17 +229,18 @@ class Stepper:
             sums[SHAKE_WORK] += self._work_of(scaled.drive.across, trace.area.imag, trace.moment.imag)
         return seen
 
-    def of_springs(self, state: MarchState, springs: Springs) -> tuple[Array, Array, Array]:
+    def of_springs(self, state: MarchState, springs: Springs, looks: int = 2) -> tuple[Array, Array, Array]:
         """Mode, force and normal force over stiffness (n_t, n) at the end of each step, under Coulomb's limit, of any
-        springs that come along without weight in a periodic motion, from its state on.
+        springs that come along without weight in a periodic motion, from its state on. looks: at it, before the last of
+        which springs that are not of the row come to where they return to.
         """
         scaled, n_t, n = self.scaled, self.scaled.drive.steps, springs.gap.size
-        row, trace = scaled.springs, self._marched(state.copy(), 1)
-        xs = on_other_springs(state.x[None], row.gap, scaled.order, springs.gap, scaled.n_axes)
-        start = MarchState(xs[0], scaled.normal_of(springs).s.copy())
-        for _ in range(2):  # in the first they come to where they return to
+        gap, order, trace = scaled.springs.gap, scaled.order, self._marched(state.copy(), 1)
+        x = on_other_springs(state.x[None], gap, order, springs.gap, scaled.n_axes)[0]
+        beside = MarchState(x, np.array([np.interp(springs.gap, gap[order], one[order]) for one in state.s]))
+        for _ in range(looks):
             seen = loop.Seen(np.zeros(N_SUMS), np.zeros((n_t, 4)), *np.zeros((5, n_t, n)))
-            loop.look(start.e, start.s, springs, None, self.motion, scaled.law, trace, seen)
+            loop.look(beside.e, beside.s, springs, None, self.motion, scaled.law, trace, seen)
         return seen.mode, seen.f, seen.f_z
 
     def _work_of(self, axis: AxisMotion, area: Array, moment: Array) -> float:

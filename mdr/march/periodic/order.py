@@ -17,14 +17,15 @@ from mdr.tools.arrays import Array
 NEARER = 8.0, 64.0  #: times as near as springs stand, trial springs in two passes to the place that was found before
 
 
-def cut_of(end: MarchEnd) -> float:
+def cut_of(end: MarchEnd, on_trial: bool = True) -> float:
     """Gap [amplitudes] from which on springs slip back, as a periodic state shows. inf: no spring slips back, or not
     implemented for this case, such as for friction that falls. -inf: all springs slip back.
 
     Springs slip back under a body that swings back. One that never loses contact and does not slip back has the force
     f = L[s] - D, where D >= 0 is what it lacks to slip forward. D is the same for all of these, and their L[s] differ
     by a constant. So the last that does not slip back has a gap that exceeds that of the deepest by the least
-    (f + L[s])/2 of a period. Where all of these stay, and under a shake, the place is found by springs on trial.
+    (f + L[s])/2 of a period. Where all of these stay, and under a shake, the place is found by springs on trial, if
+    asked: a row has springs beyond it anyway.
     """
     scaled, stepper = end.scaled, end.stepper
     as_one = scaled.springs.gap.size == 1 or (scaled.body.rigid and not scaled.drive.is_shaken)
@@ -33,11 +34,11 @@ def cut_of(end: MarchEnd) -> float:
     if not scaled.drive.is_shaken:
         deepest = int(np.argmin(scaled.springs.gap))
         gap = float(scaled.springs.gap[deepest])
-        _, f, f_z = stepper.of_springs(end.orbit.state, Springs(*(of[[deepest]] for of in scaled.springs)))
+        _, f, f_z = stepper.of_springs(end.orbit.state, Springs(*(of[[deepest]] for of in scaled.springs)), 1)
         reach = gap + 0.5 * float((f + f_z).min())
         if reach <= end.case.kept_gap - scaled.drive.h**2 / 4:  # what nodes may miss of the least value
             return reach if reach > gap else -np.inf
-    return _on_trial(end)
+    return _on_trial(end) if on_trial else np.inf
 
 
 def _on_trial(end: MarchEnd) -> float:

@@ -239,21 +239,21 @@ def _refined(runs: _Runs, resolution: Resolution) -> MarchEnd:
         awaited = not main.scaled.body.rigid and not main.settling.solved
         repeats = main.settling.spread <= max(resolution.accuracy, error) / 4  # else finer runs bound no better
         finer = resolution if met or awaited or not repeats else _finer(main, missed)
-        if finer.n_springs > resolution.n_springs and (cut := _to_be_cut(main)) is not None:
+        if finer.n_springs > resolution.n_springs and (cut := _to_be_cut(main, on_trial=True)) is not None:
             finer = resolution._replace(cut=cut)
         if finer == resolution:
             return finest
         resolution = finer
 
 
-def _to_be_cut(main: MarchEnd) -> float | None:
+def _to_be_cut(main: MarchEnd, on_trial: bool = False) -> float | None:
     """Gap at which the row of a run is to be cut; None where it is, or nothing asks for it, or where the companion of
     fewest springs would not have two for each piece of it.
     """
     fewest = max(3 * main.resolution.n_springs // 8, 16)
     if main.resolution.cut < np.inf or fewest < 2 * (len(main.case.indenter.kinks) + 3):
         return None
-    cut = cut_of(main)
+    cut = cut_of(main, on_trial)
     return cut if cut < np.inf else None
 
 
