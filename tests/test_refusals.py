@@ -471,6 +471,7 @@ SAYINGS = {
     'propagate(CASE, {"nu": 1e9})': "samples have a v_c, and 30 tell a standard deviation: 1000: nu must lie in",
     'sensitivity(CASE, fields=["taw"])': "did you mean tau?",
     "sensitivity(CASE, fields=[1])": "parameters must be names, got 1",
+    "sensitivity(CASE, fields=5)": "fields must be a list of paths, got 5",
     'sensitivity(CASE, fields=["T", NAN])': "parameters must be names, got nan",
     'sensitivity(CASE, held={"load": -1.0})': "load must be positive, got -1.0",
     'sensitivity(CASE, held={"load": NAN})': "load must be a finite number",
