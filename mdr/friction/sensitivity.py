@@ -191,7 +191,7 @@ def sensitivity(
     -----
     A derivative is left out, and `why` says so, where the one from below is another than that from above, where one
     side cannot be, such as beyond nu = 0.5, where differences of two sizes disagree, and at v_0 = 0. It is given
-    where its error is within 1e-3 of itself or of the quantity over the input. Beyond 3e-4, finer runs are asked.
+    where its error is within 1e-3 of itself or of the quantity over the input. Beyond 5e-4, finer runs are asked.
     Band and no-load velocity are asked for under a rigid pull, which has them in closed form.
 
     Examples

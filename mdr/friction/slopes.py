@@ -8,9 +8,9 @@ a third of it, and at a corner each differs by half of what the slope jumps.
 In closed form D(h) + (D(h) - D(2h))/3 is the answer. Elsewhere f is friction of runs of one resolution, that of a run
 as accurate as asked for, whose row is cut where springs begin to slip back (order.py), and D(h) the answer. What
 springs and steps miss of friction is almost the same in all these runs, and falls out. For what is left of it S(2h) is
-of coarser runs, above with 1/2 of both numbers, below with 3/8: at second order they differ by 3 and by 6 times the
-error. Where the error is too large, the same is asked of runs with twice the springs and steps. No derivative is known
-better than friction itself, each over its scale.
+of coarser runs, above with 1/2 of both numbers, below with 3/8: at second order they differ by 3 and by 6 times what
+D(h) misses, and the bound is 8 times that. Where it is too large, the same is asked of runs with twice the springs and
+steps. Runs may agree by chance: no derivative is known better than friction is asked for, each over its scale.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from mdr.friction.cof_curve import counted, friction_at
 from mdr.friction.inputs import OF_RUN
 from mdr.march.periodic.order import cut_of
 from mdr.march.periodic.steady import MOST_ACCURATE, MarchEnd, Resolution, steady
-from mdr.march.result.refinement import BY_CHANCE, MOST_CHOSEN, MOST_GAINED, companions, resolution_of, within
+from mdr.march.result.refinement import BY_CHANCE, MOST_CHOSEN, MOST_GAINED, UNEVENLY, companions, resolution_of, within
 from mdr.march.result.run import friction_of
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import resolved
@@ -37,7 +37,7 @@ from mdr.tools.notation import shown
 
 #: error up to which there is a derivative, over the greater of itself and the quantity over the input
 SURE = 1e-3
-AIM = 3e-4  #: the same from which on finer runs are asked
+AIM = SURE / 2  #: the same from which on finer runs are asked
 CHANCE = BY_CHANCE / MOST_GAINED  #: what the coarser of two differences counts, as in the bound of a run
 
 
@@ -55,7 +55,7 @@ class Functions(NamedTuple):
     main: Function
     below: Function
     above: Function
-    missed: float = 0.0  #: relative, bound on what the numerics miss of the quantity itself
+    missed: float = 0.0  #: relative, what the numerics are allowed to miss of the quantity itself
     finer: Callable[[], Functions | None] = lambda: None  #: with finer numerics; None where there are none
 
     @classmethod
@@ -112,7 +112,7 @@ def _runs(case: SlidingContact, v_0: float, accuracy: float) -> Functions:
     end = within(known, speed, resolution_of(known, None, None, accuracy))
     found = friction_of(end)
     _settled(found.cof, "" if found.settled else f"the run did not settle: {found.why}")
-    missed = (end.error or 0.0) / max(abs(end.cof), EPS)
+    missed = accuracy / max(abs(end.cof), EPS)
 
     def function(resolution: Resolution) -> Function:
         of_case = steady(known, speed, resolution, near=end.to_begin_from)
@@ -208,7 +208,7 @@ def _of_sides(moved: Callable[[float, Function], float], x: float, of: Functions
     return _Sides(
         told=tuple(told),
         value=near + (near - far) / 3 if of.is_one else near,
-        error=abs(off_above) + CHANCE * abs(off_below) + (EPS / size + of.missed) * abs(of.main.value / x),
+        error=UNEVENLY * (abs(off_above) + CHANCE * abs(off_below)) + (EPS / size + of.missed) * abs(of.main.value / x),
         jump=abs(off_above - off_below) / 2 if off_above * off_below < 0 else 0.0,
         across=f"{near:.6g}, {far:.6g} across 1, 2 times {size:.1e} of it to either side{way_out}",
     )
