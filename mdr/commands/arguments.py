@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeVar
 
 import mdr
+from mdr.case.paths import require_apart
 from mdr.commands.output import WrongInput
 from mdr.files.toml_text import StandardInput
 from mdr.tools.notation import is_number, is_unit, number_in, parted, value_in
@@ -113,6 +114,12 @@ def read_file(read: Callable[..., T], path: str, args: argparse.Namespace) -> T:
             warnings.warn(in_options(str(one.message), vars(args)), one.category)
 
 
+def each_once(pairs: Sequence[tuple[str, T]]) -> dict[str, T]:
+    """Pairs of a path and what is said of it, by path. ValueError where two are of the same."""
+    require_apart([path for path, _ in pairs])
+    return dict(pairs)
+
+
 def in_options(message: str, options: Iterable[str]) -> str:
     """A message in which arguments of a reader, as columns={"t": 1}, are options, --columns t=1."""
 
@@ -160,7 +167,8 @@ class Asked(NamedTuple):
         if self.of != OF_V_C:
             if self.of and not case.friction.is_coulomb:
                 raise WrongInput(
-                    f"{self.number:g} mu_0: with a shear strength mu_0 is not the friction; give a number, or --share"
+                    f"{self.number:g} mu_0: with a shear strength mu_0 is not the friction; give a number, or in "
+                    "`mdr find` --share"
                 )
             return self.number * (case.mu_0 if self.of else 1)
         v_c = mdr.critical_velocity(case, -1 if self.number < 0 else 1)
@@ -176,8 +184,8 @@ def quantity(name: str, unit: str, of: str = "") -> Callable[[str], Asked]:
         number, symbol = parted(text)
         if of == OF_MU_0 and symbol == "%":
             raise argparse.ArgumentTypeError(
-                f"a COF in per cent may be of the load or of mu_0, got {text!r}: give --share {text} for that of the "
-                f"friction without vibration, or the COF itself, as 0.2 or 0.7{OF_MU_0}"
+                f"a COF in per cent may be of the load or of mu_0, got {text!r}: give the COF itself, as 0.2 or "
+                f"0.7{OF_MU_0}, or in `mdr find` --share {text} of the friction without vibration"
             )
         try:
             if of and symbol == of:

@@ -14,6 +14,7 @@ from mdr.commands.arguments import (
     OF_MU_0,
     add_accuracy,
     add_velocity,
+    each_once,
     plain_number,
     quantity,
     read_as,
@@ -149,7 +150,7 @@ def propagate(args: argparse.Namespace, asked: Said) -> int:
     with refusals():
         v_0 = args.v_0 and args.v_0.on(asked.case)
         drawn = {"samples": args.samples, "seed": args.seed, "accuracy": args.accuracy}
-        found = mdr.propagate(asked.case, dict(args.spread), v_0, held=asked.held, **drawn)
+        found = mdr.propagate(asked.case, each_once(args.spread), v_0, held=asked.held, **drawn)
     names = ("v_0", "inputs", "spread", "cof", "cof_sd", "cof_share", "v_c", "v_c_sd", "v_c_share", "agrees", "why")
     told = ("mean", "sd", "low", "high", "error", "left_out")
     samples = {name: picked(one, *told) for name, one in found.samples.items()}

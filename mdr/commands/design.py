@@ -6,7 +6,7 @@ import argparse
 
 import mdr
 from mdr.case.paths import RIG
-from mdr.commands.arguments import OF_MU_0, add_limit, quantity, read_as, velocity, whole_number
+from mdr.commands.arguments import OF_MU_0, add_limit, each_once, quantity, read_as, velocity, whole_number
 from mdr.commands.output import answer, picked, refusals, status_of, stopped_by_signals
 from mdr.commands.written import add_output, make_folder, write_found, write_text
 from mdr.files.case_files import written
@@ -37,8 +37,9 @@ def _add_free(command: argparse.ArgumentParser) -> None:
     """The numbers that may change, and the end of the search."""
     known = "numbers that may change, each with its range, such as du_z=0.1um:2um frequency=100Hz:20kHz"
     read = read_as("path=low:high, such as du_z=0.1um:2um", _range)
-    ranges = "path=low:high"
-    command.add_argument("--free", metavar=ranges, action="extend", nargs="+", required=True, type=read, help=known)
+    command.add_argument(
+        "--free", metavar="path=low:high", action="extend", nargs="+", required=True, type=read, help=known
+    )
     add_limit(command, "designs")
 
 
@@ -62,7 +63,9 @@ def design(args: argparse.Namespace, asked: Said) -> int:
         least = "power" if args.least_power else None
         target = mdr.Target(**limits)
         with stopped_by_signals():
-            found = mdr.design(asked.case, target, dict(args.free), least=least, held=asked.held, limit_s=args.limit)
+            found = mdr.design(
+                asked.case, target, each_once(args.free), least=least, held=asked.held, limit_s=args.limit
+            )
     names = ("met", "values", "ranges", "reached", "room", "active", "power", "why", "stopped")
     answer(args, {"target": limits, **picked(found, *names)}, str(found), found.case)
     if args.output is not None:
@@ -90,7 +93,7 @@ def front(args: argparse.Namespace, asked: Said) -> int:
     with refusals():
         up_to = args.up_to.on(asked.case)
         with stopped_by_signals():
-            found = mdr.front(asked.case, up_to, dict(args.free), args.n, held=asked.held, limit_s=args.limit)
+            found = mdr.front(asked.case, up_to, each_once(args.free), args.n, held=asked.held, limit_s=args.limit)
     designs = [picked(one, "values", "met", "why") for one in found.designs]
     answer(
         args, {**picked(found, "up_to", "cof", "power", "why", "stopped"), "designs": designs}, str(found), asked.case

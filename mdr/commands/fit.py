@@ -8,7 +8,16 @@ from typing import Any
 
 import mdr
 from mdr.case.paths import facts_at
-from mdr.commands.arguments import add_limit, add_reading, path_of, plain_number, read_as, read_file, velocity
+from mdr.commands.arguments import (
+    add_limit,
+    add_reading,
+    each_once,
+    path_of,
+    plain_number,
+    read_as,
+    read_file,
+    velocity,
+)
 from mdr.commands.output import WrongInput, answer, picked, refusals, status_of, stopped_by_signals
 from mdr.commands.written import add_output, make_folder, write_found
 from mdr.friction.fit import Fit
@@ -46,7 +55,7 @@ def fit(args: argparse.Namespace, asked: Said) -> int:
     of_data = {"v_0": None if args.v_0 is None else args.v_0.number, "radius": args.radius}
     data = read_file(partial(mdr.read_friction_data, **of_data), args.data, args)
     with refusals():
-        knobs = {"bounds": dict(args.bounds), "confidence": args.confidence, "held": asked.held}
+        knobs = {"bounds": each_once(args.bounds), "confidence": args.confidence, "held": asked.held}
         with stopped_by_signals():
             found = mdr.fit(asked.case, data, args.free, limit_s=args.limit, **knobs)
     answer(args, _told(found), str(found), found.case)

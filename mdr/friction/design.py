@@ -8,13 +8,10 @@ from typing import Any
 from mdr.case.contact import SlidingContact, as_given
 from mdr.case.domain import ALIKE, Domain
 from mdr.friction.room_search import Design, Search, Space
-from mdr.friction.target import (
-    Target,
-)
+from mdr.friction.target import Target
 from mdr.normal.resolved import at_rest
 from mdr.tools.checks import instance, word
 from mdr.tools.keywords import offering
-from mdr.tools.progress import Ended, time_limit
 
 LAW = Domain((ALIKE,), instead="slide(case, v_0) at each velocity; find with smooth=True is where stick-slip ends")
 
@@ -66,10 +63,11 @@ def design(
 
     Notes
     -----
-    The room of a limit is, of friction, its distance over friction of full slip, of a velocity or power v with limit b
-    (v - b)/(v + b), or its negative. The design has the greatest least room that was found; nothing proves that there
-    is none greater. Friction and power are looked at at `up_to`, and at 1/2, 1/4 and 1/8 of it. Where a body or a mass
-    may swing, all limits are to hold at frequencies 5 % below and above too, and it keeps 5 % off each resonance.
+    The room of a limit is, of friction, its distance over friction of full slip, or over the limit where that is
+    greater; of a velocity or power v with limit b (v - b)/(v + b), or its negative. The design has the greatest least
+    room that was found; nothing proves that there is none greater. Friction and power are looked at at `up_to`, and at
+    1/2, 1/4 and 1/8 of it. Where a body or a mass may swing, all limits are to hold at frequencies 5 % below and above
+    too, and it keeps 5 % off each resonance.
 
     Examples
     --------
@@ -91,18 +89,10 @@ def design(
             raise ValueError("least power wants up_to of the target, the velocity in m/s at which it is taken")
     space = Space(case, free, held or {})
     search = Search(space, target)
-    stopped = ""
-    with time_limit(limit_s):
-        try:
-            search.most_room()
-            if least and search.is_met:
-                search.least_power([*search.ends])
-        except Ended:
-            stopped = f"the limit of {limit_s:g} s"
-            if search.best is None and search.start is None:
-                raise ValueError(f"{stopped} is over before the first case is done; raise limit_s") from None
-        except KeyboardInterrupt:
-            stopped = "an interrupt"
-            if search.best is None and search.start is None:
-                raise
-    return search.design(stopped)
+
+    def work() -> None:
+        search.most_room()
+        if least and search.is_met:
+            search.least_power([*search.ends])
+
+    return search.design(search.stopped(work, limit_s))

@@ -21,7 +21,7 @@ from mdr.tools.checks import count
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
-from mdr.tools.progress import Ended, progress, time_limit
+from mdr.tools.progress import progress
 from mdr.tools.records import ArrayRecord
 from mdr.tools.summary import Summarised, Summary, span
 
@@ -100,7 +100,8 @@ def front(
     held : mapping of str to float, optional
         "load" [N], "frequency" [Hz] or "tan_delta" [-] that hold meanwhile, as in `find`.
     limit_s : float, optional
-        Computing time [s] after which no design is begun; an interrupt (Ctrl-C) ends it too. None: no limit.
+        Computing time [s] after which the search ends; an interrupt (Ctrl-C) ends it too. The designs so far are
+        answered, and `stopped` says so. None: no limit.
 
     Returns
     -------
@@ -128,21 +129,19 @@ def front(
     target = Target(cof_at_most=0.0, up_to=up_to)
     space = Space(case, free, held or {})
     searches = [Search(space, target)]
-    full, stopped = full_cof(resolved(case)), ""
-    with time_limit(limit_s):
-        try:
-            searches[0].most_room()
-            least = searches[0].design().reached["cof_at_most"]
-            for k in progress(range(1, n), "front", "designs"):
-                search = Search(space, replace(target, cof_at_most=least + (full - least) * k / n))
-                search.least_power([searches[-1].found])
-                searches.append(search)
-            for k in progress(range(n - 2, 0, -1), "front, back again", "designs"):  # each from its other neighbour
-                searches[k].least_power([searches[k].found, searches[k + 1].found])
-        except Ended:
-            stopped = f"the limit of {limit_s:g} s"
-        except KeyboardInterrupt:
-            stopped = "an interrupt"
+    full = full_cof(resolved(case))
+
+    def work() -> None:
+        searches[0].most_room()
+        least = searches[0].design().reached["cof_at_most"]
+        for k in progress(range(1, n), "front", "designs"):
+            search = Search(space, replace(target, cof_at_most=least + (full - least) * k / n))
+            search.least_power([searches[-1].found])
+            searches.append(search)
+        for k in progress(range(n - 2, 0, -1), "front, back again", "designs"):  # each from its other neighbour
+            searches[k].least_power([searches[k].found, searches[k + 1].found])
+
+    stopped = searches[0].stopped(work, limit_s)
     designs = [search.design() for search in searches]
     power = np.array([one.power for one in designs])
     idle = "" if np.any(power > 0) else "the drives take no power: an elastic contact gives back what moves it"

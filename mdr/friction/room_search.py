@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.case.contact import SlidingContact
-from mdr.case.paths import facts_at
+from mdr.case.paths import facts_at, require_apart
 from mdr.friction.free_parameters import case_of, path_of, value_of
 from mdr.friction.target import (
     DETUNED,
@@ -39,7 +39,7 @@ from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import ends
 from mdr.tools.messages import short
 from mdr.tools.notation import shown, value_in
-from mdr.tools.progress import Ticker
+from mdr.tools.progress import Ended, Ticker, time_is_over, time_limit
 from mdr.tools.ranges import Range
 from mdr.tools.summary import Row, Summarised, Summary
 
@@ -49,7 +49,7 @@ ROUNDS = 4  #: of places that are added
 STEP = 1e-3  #: of a range, over which slopes are taken: well above what runs scatter by, well below any curvature
 GAIN, IDLE = 1e-4, 8  #: of room in so many steps, below which a climb ends
 CLOSE = 0.01  #: room by which a limit is above the least one and limits too
-REFUSED = -2.0  #: room of what is no case: below all others
+REFUSED = -3.0  #: room of what is no case: below all others, of which none is below -2
 POWER = "power_at_most"  #: the limit that is lowered where the least power is asked for
 
 
@@ -92,8 +92,7 @@ class Space:
         if not isinstance(free, Mapping) or not free:
             raise TypeError(f'free must be a dict, {{"du_z": (low, high)}}, got {short(repr(free))}')
         paths = [path_of(case, name) for name in free]
-        if len(set(paths)) < len(paths):
-            raise ValueError(f"free names one twice: {', '.join(map(str, free))}")
+        require_apart(paths, [*free])
         self.case, self.held = case, still_held(held, paths)
         self.ranges = {path: Range(*_ends(path, given)) for path, given in zip(paths, free.values(), strict=True)}
 
@@ -277,7 +276,7 @@ class Search:
         with suppress(_Still):
             minimize(
                 lambda z: -z[-1], np.append(start, self.score(start)), jac=lambda _: up, method="SLSQP",
-                bounds=[*(start.size * [(0.0, 1.0)]), (REFUSED, 1.0)],
+                bounds=[*(start.size * [(0.0, 1.0)]), (None, None)],
                 constraints={"type": "ineq", "fun": spare, "jac": slopes}, options={"ftol": 1e-1 * GAIN},
             )  # fmt: skip
         return max(seen, key=self.score)
@@ -316,13 +315,28 @@ class Search:
         best = self.best
         found = self.start if best is None else best
         if found is None:
-            raise ValueError(f"no case of these ranges can be: {self.refused}")
+            why = self.refused or f"each is less than {DETUNED:.0%} of the frequency off a resonance"
+            raise ValueError(f"of {len(self.room)} cases in these ranges none can be: {why}; give other ranges")
         return found
 
     @property
     def is_met(self) -> bool:
         """Whether the best meets the target, as accurately as runs are."""
         return all(room >= error for room, error in self.confirmed().values())
+
+    def stopped(self, work: Callable[[], None], limit_s: float | None) -> str:
+        """Do the work; what ended it early, "" where nothing did. Without a case to answer the end is raised."""
+        with time_limit(limit_s):
+            try:
+                work()
+            except (Ended, KeyboardInterrupt) as end:
+                is_over = time_is_over()
+                if self.best is not None or self.start is not None:
+                    return f"the limit of {limit_s:g} s" if is_over else "an interrupt"
+                if not is_over:
+                    raise
+                raise ValueError(f"limit_s = {limit_s:g} s is over before the first case is done; raise it") from end
+        return ""
 
     def design(self, stopped: str = "") -> Design:
         """The best as it is answered."""
@@ -343,7 +357,7 @@ class Search:
         ]
         if self.rooms(x, [Place(OFF_RESONANCE, 0.0)])[0] < CLOSE:
             limiting.append("a resonance")
-            told.append(f"{DETUNED:.3g} of the frequency off a resonance: on it friction stays low, and only there")
+            told.append(f"{DETUNED:.0%} of the frequency off a resonance: on it friction stays low, and only there")
         return Design(
             case=case,
             target=asked,

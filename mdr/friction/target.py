@@ -1,7 +1,8 @@
 """Target: limits on friction, critical velocity and power; how far inside them a contact is, and where the worst is.
 
-The room of a limit is a number, above zero inside: of friction the distance over friction of full slip, of a velocity
-or a power v and its limit b (v - b)/(v + b), so that an infinite one counts as 1.
+The room of a limit is a number, above zero inside: of friction the distance over friction of full slip, or over the
+limit where that is greater; of a velocity or a power v with limit b (v - b)/(v + b), so that an infinite one counts
+as 1.
 
 Friction is limited at all velocities up to one. On a resonance of a body friction stays reduced however fast the pull,
 and v_c is infinite; but a share of a per cent beside it all may be lost. So a design keeps off resonances, and where
@@ -150,13 +151,6 @@ class Answer:
         return cof, error
 
     @property
-    def share(self) -> tuple[float, float]:
-        """Friction over that of full slip, and its error."""
-        cof, error = self.cof
-        full = full_cof(self.case)
-        return cof / full, error / full
-
-    @property
     def power(self) -> float:
         """Mean power [W] of the drives of the vibration."""
         return self._run.power["normal"] + self._run.power["shake"]
@@ -173,14 +167,15 @@ class Limit(NamedTuple):
 
 
 def _below_friction(answer: Answer, most: float) -> tuple[float, float]:
-    """Room below the most; while it is searched for, full friction has a little less the farther it is full."""
-    share, error = answer.share
-    return most / full_cof(answer.case) - share - (GUIDE * answer.excess if answer.is_quick else 0.0), error
+    """Room below the most; in a search full friction has a little less the farther above v_c it is full."""
+    room, error = _above_friction(answer, most)
+    return -room - (GUIDE * answer.excess if answer.is_quick else 0.0), error
 
 
 def _above_friction(answer: Answer, least: float) -> tuple[float, float]:
-    share, error = answer.share
-    return share - least / full_cof(answer.case), error
+    cof, error = answer.cof
+    scale = max(full_cof(answer.case), abs(least))
+    return (cof - least) / scale, error / scale
 
 
 def _v_c(answer: Answer) -> float:
@@ -195,9 +190,9 @@ def _above(value: float, limit: float) -> float:
 def _resonances(case: SlidingContact) -> list[float]:
     """Natural frequencies [rad/s] of the body on its spring and of a mass on the contact, where little damps them."""
     known = at_rest(case)
-    load = getattr(as_given(case).oscillation, "m_z", 0.0)
+    mass = getattr(as_given(case).oscillation, "m_z", 0.0)
     found = [(known.pull.omega_0, known.pull.damping_ratio)]
-    found += [(float(np.sqrt(known.k_zc / load)), known.T / 2)] if load else []
+    found += [(float(np.sqrt(known.k_zc / mass)), known.T / 2)] if mass else []
     return [omega_0 for omega_0, damping in found if 0 < omega_0 < np.inf and damping < DETUNED]
 
 
@@ -230,7 +225,7 @@ LIMITS = {
     "cof_at_least": Limit("-", -1, True, _above_friction, _friction),
     "v_c_at_least": Limit("m/s", -1, False, lambda one, least: (_above(_v_c(one), least), 0.0), _v_c),
     # what drives at a velocity still runs faster without a load
-    "no_load_velocity_at_least": Limit("m/s", -1, False, lambda one, _: (-one.share[0], one.share[1]), _no_load),
+    "no_load_velocity_at_least": Limit("m/s", -1, False, lambda one, _: _below_friction(one, 0.0), _no_load),
     "power_at_most": Limit(
         "W", 1, True, lambda one, most: (-_above(max(one.power, 0.0), most), 0.0), lambda one: one.power
     ),

@@ -146,9 +146,9 @@ def _factors(unit: str) -> tuple[list[str], list[str]]:
 
 
 def shown(value: float, unit: str, digits: int = 5) -> str:
-    """A value with the prefix that brings it above one, as `value_in` reads it: "2 µm", "3 MPa"; or "infinite"."""
-    if math.isinf(value):
-        return "infinite"
+    """A value with the prefix that brings it above one, as `value_in` reads it: "2 µm", "3 MPa"; or a word."""
+    if not math.isfinite(value):
+        return "undefined" if math.isnan(value) else "infinite"
     symbol, known = SHOWN.get(unit, unit), UNITS.get(unit, {})
     scales = {one: known[one] for one in (prefix + symbol for prefix in ("", *"nµmkMG")) if one in known}
     below = [one for one in scales if scales[one] <= abs(value) * (1 + EXACT)]

@@ -20,12 +20,13 @@ class Range(NamedTuple):
     def value(self, x: float) -> float:
         """The value at a coordinate."""
         if self._is_wide:
-            return float(self.low * (self.high / self.low) ** x)
+            return float(self.low ** (1 - x) * self.high**x)
         return float(self.low + (self.high - self.low) * x)
 
     def coordinate(self, value: float) -> float:
         """The coordinate of a value, of one outside that of the nearer end."""
         value = min(max(value, self.low), self.high)
         if self._is_wide:
-            return float(np.log(value / self.low) / np.log(self.high / self.low))
+            low, high = np.log([self.low, self.high])
+            return float((np.log(value) - low) / (high - low))
         return (value - self.low) / (self.high - self.low)

@@ -54,6 +54,17 @@ def test_what_cannot_be_met_is_said_with_what_limits_it():
     assert "the target is not met" in str(found)
 
 
+@pytest.mark.parametrize(
+    ("limit", "at"), [({"cof_at_most": -5.0}, 19), ({"cof_at_least": 5.0}, 1), ({"cof_at_most": 5.0}, 19)]
+)
+def test_limits_beyond_all_friction_are_answered(limit, at):
+    """Missed or met, with the least friction or the most: no room is taken for that of what is no case."""
+    found = mdr.design(CONE, mdr.Target(**limit, up_to=0.2 * v_c(CONE)), {"du_z": (1 * UM, 19 * UM)})
+    assert found.values["oscillation.du_z"] == pytest.approx(at * UM, rel=1e-3)
+    assert found.met == (limit == {"cof_at_most": 5.0})
+    assert all(-2 <= room <= 2 for room in found.room.values())
+
+
 def test_no_design_is_on_a_resonance():
     """Eq. (2) is infinite at omega_0 of an undamped body, which lies within the range."""
     at = BODY.pull.omega_0
@@ -143,7 +154,7 @@ def test_the_best_so_far_is_answered(monkeypatch):
     found = mdr.design(CONE, mdr.Target(cof_at_most=0.1, up_to=1e-4), {"du_z": (1 * UM, 19 * UM)})
     assert found.stopped == "an interrupt"
     assert found.reached["cof_at_most"] == pytest.approx(mdr.slide(found.case, 1e-4).cof, abs=1e-5)
-    with pytest.raises(ValueError, match="over before the first case is done; raise limit_s"):
+    with pytest.raises(ValueError, match="limit_s = 1e-09 s is over before the first case is done; raise it"):
         mdr.design(CONE, mdr.Target(v_c_at_least=1e-3), {"du_z": (1e-6, 2e-6)}, limit_s=1e-9)
 
 
@@ -197,8 +208,9 @@ def test_targets_that_are_none(limits, why):
         ({"free": {"du_z": (2e-6, 1e-6)}}, ValueError, "range of oscillation.du_z must be \\(low, high\\)"),
         ({"free": {"du_z": (np.nan, 1e-6)}}, ValueError, "range of oscillation.du_z must be a finite number"),
         ({"free": {"du_z": ("1s", "2s")}}, ValueError, "oscillation.du_z wants m"),
-        ({"free": {"du_z": (1e-6, 2e-6), "oscillation.du_z": (1e-6, 2e-6)}}, ValueError, "free names one twice"),
-        ({"free": {"nu": (0.6, 0.9)}}, ValueError, "no case of these ranges can be: .*nu"),
+        ({"free": {"du_z": (1e-6, 2e-6), "oscillation.du_z": (1e-6, 2e-6)}}, ValueError, "du_z set the same; keep one"),
+        ({"free": {"load": (1.0, 2.0), "u_z0": (1e-6, 2e-6)}}, ValueError, "load and u_z0 set the same; keep one"),
+        ({"free": {"nu": (0.6, 0.9)}}, ValueError, "of 32 cases in these ranges none can be: .*nu.*other ranges"),
         ({"least": "cost"}, ValueError, "least must be"),
         ({"least": "power"}, ValueError, "least power wants up_to"),
         ({"limit_s": 0.0}, ValueError, "limit_s must be positive"),
