@@ -10,8 +10,9 @@ from mdr.case.domain import ALIKE, Domain
 from mdr.friction.room_search import Design, Search, Space
 from mdr.friction.target import Target
 from mdr.normal.resolved import at_rest
-from mdr.tools.checks import instance, word
+from mdr.tools.checks import instance
 from mdr.tools.keywords import offering
+from mdr.tools.messages import short
 
 LAW = Domain((ALIKE,), instead="slide(case, v_0) at each velocity; find with smooth=True is where stick-slip ends")
 
@@ -83,10 +84,10 @@ def design(
     case = LAW.seen(as_given(case), "design")
     at_rest(case)  # warns of what is unlikely
     instance("target", target, Target)
-    if least is not None:
-        word("least", least, "power")
-        if target.up_to is None:
-            raise ValueError("least power wants up_to of the target, the velocity in m/s at which it is taken")
+    if least not in (None, "power"):
+        raise ValueError(f'least must be "power" or None, got {short(repr(least))}')
+    if least and target.up_to is None:
+        raise ValueError("least power wants up_to of the target, the velocity in m/s at which it is taken")
     space = Space(case, free, held or {})
     search = Search(space, target)
 

@@ -17,7 +17,7 @@ from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import at_rest, resolved
 from mdr.plots.figures import Figure
 from mdr.tools.arrays import Array
-from mdr.tools.checks import count
+from mdr.tools.checks import count, positive
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
 from mdr.tools.notation import shown
@@ -125,7 +125,7 @@ def front(
     """
     case = LAW.seen(as_given(case), "front")
     at_rest(case)  # warns of what is unlikely
-    n = count("n", n, 2)
+    up_to, n = positive("up_to", up_to), count("n", n, 2)
     target = Target(cof_at_most=0.0, up_to=up_to)
     space = Space(case, free, held or {})
     searches = [Search(space, target)]
@@ -146,4 +146,4 @@ def front(
     power = np.array([one.power for one in designs])
     idle = "" if np.any(power > 0) else "the drives take no power: an elastic contact gives back what moves it"
     cofs = np.array([one.reached["cof_at_most"] for one in designs])
-    return Front(float(up_to), cofs, power, tuple(designs), full, idle, stopped)
+    return Front(up_to, cofs, power, tuple(designs), full, idle, stopped)

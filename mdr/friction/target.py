@@ -12,9 +12,9 @@ there are some, limits are to hold at frequencies that are a little off, too. Ea
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,11 +29,12 @@ from mdr.given.vary import value_at
 from mdr.march.periodic.steady import BUDGET, Resolution
 from mdr.march.result.refinement import default_springs, default_steps
 from mdr.march.result.run import SlidingRun, finish
-from mdr.march.result.slide import runs, slide
+from mdr.march.result.slide import checked_velocity, runs, slide
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import at_rest, resolved
 from mdr.tools.allowed import refusal_of
 from mdr.tools.checks import finite, positive_or_none
+from mdr.tools.fields import Record, facts
 from mdr.tools.notation import shown
 from mdr.tools.progress import Ended, time_is_over
 from mdr.tools.summary import Row, Summarised, Summary
@@ -44,8 +45,13 @@ GUIDE = 0.01  #: of the way to where friction is not full any more, in the room:
 PARTS = (0.125, 0.25, 0.5, 1.0)  #: of the greatest velocity, at which friction and power are looked at
 
 
+def _finite_or_none(name: str, value: Any, note: str = "") -> float | None:
+    """A finite number, or None."""
+    return None if value is None else finite(name, value, note)
+
+
 @dataclass(frozen=True, kw_only=True)
-class Target(Summarised):
+class Target(Record, Summarised):
     """What is wanted of a contact; None is no limit.
 
     Examples
@@ -58,19 +64,29 @@ class Target(Summarised):
       power_at_most  3 W
     """
 
-    cof_at_most: float | None = None  #: greatest friction [-] at velocities up to `up_to`
-    cof_at_least: float | None = None  #: least friction [-] there
-    up_to: float | None = None  #: velocity [m/s], of friction and power
-    v_c_at_least: float | None = None  #: critical velocity [m/s] with all harmonics, as `full_slip_critical_velocity`
-    no_load_velocity_at_least: float | None = None  #: [m/s] forward, of a contact that is shaken along
-    power_at_most: float | None = None  #: mean power [W] of the drives that vibrate it, at velocities up to `up_to`
+    cof_at_most: float | None = field(
+        default=None, metadata=facts("-", "greatest friction at velocities up to up_to", _finite_or_none)
+    )
+    cof_at_least: float | None = field(default=None, metadata=facts("-", "least friction there", _finite_or_none))
+    up_to: float | None = field(
+        default=None, metadata=facts("m/s", "greatest velocity at which friction and power hold", positive_or_none)
+    )
+    v_c_at_least: float | None = field(
+        default=None, metadata=facts("m/s", "least critical velocity, with all harmonics", positive_or_none)
+    )
+    no_load_velocity_at_least: float | None = field(
+        default=None,
+        metadata=facts(
+            "m/s", "least velocity forward without load, of a contact that is shaken along", positive_or_none
+        ),
+    )
+    power_at_most: float | None = field(
+        default=None,
+        metadata=facts("W", "greatest mean power of the drives that vibrate it, up to up_to", positive_or_none),
+    )
 
     def __post_init__(self) -> None:
-        for name in ("cof_at_most", "cof_at_least"):
-            if getattr(self, name) is not None:
-                object.__setattr__(self, name, finite(name, getattr(self, name)))
-        for name in ("up_to", "v_c_at_least", "no_load_velocity_at_least", "power_at_most"):
-            object.__setattr__(self, name, positive_or_none(name, getattr(self, name)))
+        super().__post_init__()
         low, high = self.cof_at_least, self.cof_at_most
         if low is not None and high is not None and low >= high:
             raise ValueError(f"cof_at_least must be below cof_at_most, got {low:.6g} and {high:.6g}")
@@ -122,7 +138,7 @@ class Answer:
         if self.is_quick:
             springs, steps = (of(self.case) // 2 for of in (default_springs, default_steps))
             resolution = Resolution(springs, steps, "full_slip", lump=True, bounded=False)
-            (end,) = runs(self.case, [self.v_0], resolution)
+            (end,) = runs(self.case, [checked_velocity(self.case, self.v_0)], resolution)
             run = finish(end)
         else:
             run = slide(self.case, self.v_0)
@@ -160,7 +176,6 @@ class Limit(NamedTuple):
     """One kind of limit."""
 
     unit: str
-    sign: int  #: 1 of a greatest value, -1 of a least one
     moves: bool  #: whether it is of all velocities up to one
     of: Callable[[Answer, float], tuple[float, float]]  #: room within a limit, and its error
     value: Callable[[Answer], float]  #: what is limited
@@ -221,15 +236,15 @@ def _no_load(answer: Answer) -> float:
 
 OFF_RESONANCE = "off_resonance"  #: a limit of every target for what swings
 LIMITS = {
-    "cof_at_most": Limit("-", 1, True, _below_friction, _friction),
-    "cof_at_least": Limit("-", -1, True, _above_friction, _friction),
-    "v_c_at_least": Limit("m/s", -1, False, lambda one, least: (_above(_v_c(one), least), 0.0), _v_c),
+    "cof_at_most": Limit("-", True, _below_friction, _friction),
+    "cof_at_least": Limit("-", True, _above_friction, _friction),
+    "v_c_at_least": Limit("m/s", False, lambda one, least: (_above(_v_c(one), least), 0.0), _v_c),
     # what drives at a velocity still runs faster without a load
-    "no_load_velocity_at_least": Limit("m/s", -1, False, lambda one, _: _below_friction(one, 0.0), _no_load),
+    "no_load_velocity_at_least": Limit("m/s", False, lambda one, _: _below_friction(one, 0.0), _no_load),
     "power_at_most": Limit(
-        "W", 1, True, lambda one, most: (-_above(max(one.power, 0.0), most), 0.0), lambda one: one.power
+        "W", True, lambda one, most: (-_above(max(one.power, 0.0), most), 0.0), lambda one: one.power
     ),
-    OFF_RESONANCE: Limit("-", -1, False, lambda one, least: (_off_resonance(one) - least, 0.0), _off_resonance),
+    OFF_RESONANCE: Limit("-", False, lambda one, least: (_off_resonance(one) - least, 0.0), _off_resonance),
 }
 
 

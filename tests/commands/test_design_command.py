@@ -1,9 +1,12 @@
 """`mdr design` and `mdr front`: the answers of the functions, with units, as text, JSON and files."""
 
+import signal
+
 import pytest
 from answers import json_of, words_of
 
 import mdr
+from mdr.friction import room_search
 from mdr.given.case_file import read_said
 
 CASE = """
@@ -47,6 +50,22 @@ def test_design(capsys, rubber, tmp_path):
     assert "the target is met" in words_of(capsys, [*asked, "--least-power"]).out
     far = ["design", rubber, "--v-c", "10m/s", "--free", "du_z=1um:8um", "--free", "frequency=10Hz:50Hz"]
     assert "v_c_at_least = 10 m/s is missed" in words_of(capsys, far, 1).out
+
+
+@pytest.mark.parametrize("ends", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_leaves_the_best_so_far(capsys, rubber, monkeypatch, ends):
+    class Struck(room_search.Answer):
+        asked = 0
+
+        def __init__(self, *args):
+            Struck.asked += 1
+            if Struck.asked == 20:
+                signal.raise_signal(ends)
+            super().__init__(*args)
+
+    monkeypatch.setattr(room_search, "Answer", Struck)
+    asked = ["design", rubber, "--cof", "0.2", "--up-to", "0.2mm/s", "--free", "du_z=1um:8um"]
+    assert json_of(capsys, [*asked, "--json"], 130)["stopped"] == "an interrupt"
 
 
 def test_front(capsys, rubber, tmp_path):

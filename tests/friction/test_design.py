@@ -189,11 +189,41 @@ FREE = {"du_z": (1 * UM, 2 * UM)}
         ({"v_c_at_least": 0.0}, "v_c_at_least must be positive"),
         ({"cof_at_most": 0.2, "up_to": -1.0}, "up_to must be positive"),
         ({"power_at_most": -1.0, "up_to": 1.0}, "power_at_most must be positive"),
+        ({"cof_at_most": 0.2, "cof_at_least": 0.2, "up_to": 1.0}, "cof_at_least must be below cof_at_most"),
+        ({"power_at_most": np.inf, "up_to": 1.0}, "power_at_most must be a finite number"),
     ],
 )
 def test_targets_that_are_none(limits, why):
     with pytest.raises(ValueError, match=why):
         mdr.Target(**limits)
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "why"),
+    [
+        ({"up_to": None}, TypeError, "up_to must be a real number"),
+        ({"up_to": -1.0}, ValueError, "up_to must be positive"),
+        ({"n": 1}, ValueError, "n must be at least 2"),
+        ({"n": 2.5}, TypeError, "n must be a whole number"),
+        ({"free": {}}, TypeError, "free must be a dict"),
+        ({"limit_s": 1e-9}, ValueError, "is over before the first case is done; raise it"),
+    ],
+)
+def test_what_is_no_front(change, error, why):
+    with pytest.raises(error, match=why):
+        mdr.front(**{"case": CONE, "up_to": 1e-4, "free": FREE, "n": 2, **change})
+
+
+def test_a_case_that_stays_on_its_resonance_is_none():
+    """The frequency is not free, and that of the body is the same."""
+    case = replace(BODY, pull=replace(BODY.pull, m=BODY.pull.k_x / BODY.omega**2))
+    with pytest.raises(ValueError, match="each is less than 5% of the frequency off a resonance; give other ranges"):
+        mdr.design(case, mdr.Target(v_c_at_least=1e-3), FREE)
+
+
+def test_a_word_that_is_no_limit_is_met_with_the_one_meant():
+    with pytest.raises(TypeError, match="takes no cof_at_mst; did you mean cof_at_most"):
+        mdr.Target(cof_at_mst=0.2, up_to=1.0)
 
 
 @pytest.mark.parametrize(
@@ -212,7 +242,22 @@ def test_targets_that_are_none(limits, why):
         ({"free": {"load": (1.0, 2.0), "u_z0": (1e-6, 2e-6)}}, ValueError, "load and u_z0 set the same; keep one"),
         ({"free": {"nu": (0.6, 0.9)}}, ValueError, "of 32 cases in these ranges none can be: .*nu.*other ranges"),
         ({"least": "cost"}, ValueError, "least must be"),
+        ({"least": True}, ValueError, 'least must be "power" or None, got True'),
         ({"least": "power"}, ValueError, "least power wants up_to"),
+        ({"free": {"du_z": (1e-6, np.inf)}}, ValueError, "range of oscillation.du_z must be a finite number"),
+        ({"free": {"du_z": (False, True)}}, TypeError, "range of oscillation.du_z must be a real number"),
+        ({"free": {"du_z": (1e-6, 1e-6)}}, ValueError, "with low < high, got 1e-06 and 1e-06"),
+        ({"free": {"du_z": "1um:2um"}}, TypeError, "range of oscillation.du_z must be a pair"),
+        ({"free": {1: (1.0, 2.0)}}, TypeError, "parameters must be names, got 1"),
+        ({"free": {"tau_0": (-2e4, -1e4)}}, ValueError, "of 33 cases .* none can be: tau_0 must not be negative"),
+        (
+            {"case": BODY, "target": mdr.Target(cof_at_most=0.2, up_to=1e-300)},
+            ValueError,
+            "v_0 = 1e-300 m/s is below 1e-09 of",
+        ),
+        ({"held": "load"}, TypeError, "held must be a dict"),
+        ({"held": {"load": np.nan}}, ValueError, "load must be a finite number"),
+        ({"limit_s": "1s"}, TypeError, "limit_s must be a real number"),
         ({"limit_s": 0.0}, ValueError, "limit_s must be positive"),
         ({"held": {"du_z": 1.0}}, ValueError, "held takes load"),
         ({"case": 1}, TypeError, "SlidingContact"),

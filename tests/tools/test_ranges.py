@@ -6,7 +6,8 @@ from mdr.tools.ranges import Range
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "middle"), [(1.0, 3.0, 2.0), (1.0, 100.0, 10.0), (1e-300, 1e300, 1.0), (-1.0, 9.0, 4.0), (0, 9, 4.5)]
+    ("low", "high", "middle"),
+    [(1.0, 3.0, 2.0), (1.0, 100.0, 10.0), (1e-300, 1e300, 1.0), (-1.0, 9.0, 4.0), (0, 9, 4.5)],
 )
 def test_the_middle_of_a_range(low, high, middle):
     along = Range(low, high)

@@ -104,7 +104,7 @@ def slide(
     case = LAW.seen(resolved(case), "slide")
     if not isinstance(lump, bool):
         raise TypeError(f"lump must be True or False, got {lump!r}")
-    v_0 = _velocity(case, v_0)
+    v_0 = checked_velocity(case, v_0)
     back = v_0 < 0
     if back:
         case, v_0 = case.mirrored, -v_0
@@ -148,7 +148,8 @@ def _told_of_others(run: SlidingRun, case: SlidingContact, resolution: Resolutio
     return replace(run, why="; ".join(filter(None, (run.why, what))))
 
 
-def _velocity(case: SlidingContact, v_0: Any) -> float:
+def checked_velocity(case: SlidingContact, v_0: Any) -> float:
+    """A pulling velocity [m/s] that a run can have. ValueError where it cannot."""
     if case.is_shaken or (case.shake is not None and finite("v_0", v_0) < 0):  # also of a shake with no amplitude
         return finite("v_0", v_0)
     what = "pulling velocity in m/s; the limit of zero velocity is static_cof(case)"
