@@ -90,6 +90,7 @@ HOSTILE = {
     "amplitudes": ENTRIES,
     "_row": [*ENTRIES, ([-1.0], ValueError, "[0] must not be negative")],
     "positive_or_none": [one for one in POSITIVE if one[0] is not None],
+    "_finite_or_none": [one for one in NUMBER if one[0] is not None],
     "column": ROW,
     "radii": [(3, TypeError, "must be a sequence of radii"), ([-1.0], ValueError, "be positive"),
               ("tip", TypeError, "must be")],
@@ -128,6 +129,8 @@ def sound(record):
         return vars(CASE)
     if record is mdr.ContactElement:
         return {"indenter": BALL, "material": RUBBER, "mu_0": 0.5, "u_z_max": 4e-5, "n_springs": 32}
+    if record is mdr.Target:
+        return {one.name: 0.1 if one.name == "cof_at_least" else 0.4 for one in fields(record)}
     if record is mdr.Profile:
         return {"f": np.square}
     made = example_of(record)

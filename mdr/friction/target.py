@@ -91,7 +91,9 @@ class Target(Record, Summarised):
         if low is not None and high is not None and low >= high:
             raise ValueError(f"cof_at_least must be below cof_at_most, got {low:.6g} and {high:.6g}")
         if not self.limits:
-            raise ValueError(f"a target wants a limit: {', '.join(LIMITS)}")
+            raise ValueError(
+                f"a target wants a limit: {', '.join(one.name for one in fields(self) if one.name in LIMITS)}"
+            )
         if moving := [name for name in self.limits if LIMITS[name].moves and self.up_to is None]:
             raise ValueError(f"{moving[0]} wants up_to, the velocity in m/s up to which it is to hold")
         if self.up_to is not None and not any(LIMITS[name].moves for name in self.limits):

@@ -180,7 +180,7 @@ FREE = {"du_z": (1 * UM, 2 * UM)}
 @pytest.mark.parametrize(
     ("limits", "why"),
     [
-        ({}, "a target wants a limit: cof_at_most"),
+        ({}, "a target wants a limit: cof_at_most, .*, power_at_most$"),
         ({"cof_at_most": 0.2}, "cof_at_most wants up_to"),
         ({"power_at_most": 1.0}, "power_at_most wants up_to"),
         ({"v_c_at_least": 1.0, "up_to": 1.0}, "up_to is of friction or power"),
