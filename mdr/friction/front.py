@@ -70,7 +70,7 @@ class Front(Summarised, Tabled, ArrayRecord):
         matplotlib.figure.Figure
             The figure.
         """
-        from mdr.plots.records import plot_front
+        from mdr.plots.inputs import plot_front
 
         return plot_front(self)
 

@@ -95,7 +95,7 @@ class Sensitivity(Summarised, Tabled):
         matplotlib.axes.Axes
             Where the first was drawn.
         """
-        from mdr.plots.records import plot_sensitivity
+        from mdr.plots.inputs import plot_sensitivity
 
         known = {LABELS[name]: found for name in QUANTITIES if (found := self.elasticity(name))}
         return plot_sensitivity(known, ax)

@@ -61,7 +61,7 @@ class Tolerance(Summarised, Tabled):
         matplotlib.axes.Axes
             Where friction was drawn.
         """
-        from mdr.plots.records import plot_tolerance
+        from mdr.plots.inputs import plot_tolerance
 
         return plot_tolerance(self, ax)
 

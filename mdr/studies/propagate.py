@@ -121,7 +121,7 @@ class Propagated(Summarised, Tabled, ArrayRecord):
         matplotlib.axes.Axes
             Where friction was drawn.
         """
-        from mdr.plots.records import plot_propagated
+        from mdr.plots.inputs import plot_propagated
 
         return plot_propagated(self, ax)
 
