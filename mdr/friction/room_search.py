@@ -223,10 +223,10 @@ class Search:
     def least_power(self, starts: list[Array]) -> None:
         """The least power with which all limits hold, by more than the errors of runs; from cases that keep them."""
         self.start = max(starts, key=self.score)
-        most = max(self.answer_at(self.start, one).power for one in self.places if one.v_0)
-        if most <= 0:
-            return  # there is none to spare
-        self.target = replace(self.asked, power_at_most=most)
+        powers = [self._known(self.start, one, LIMITS[POWER].value, is_quick=True) for one in self.places if one.v_0]
+        if not max(powers) > 0:
+            return  # there is none to spare, or a run does not settle
+        self.target = replace(self.asked, power_at_most=max(powers))
         self.raised = {POWER}
         self.room, self.places = {}, [
             *(one for one in self.places if one.name != POWER), Place(POWER, self.target.velocities[-1])
@@ -344,7 +344,7 @@ class Search:
         case, values = self.space.case_at(x), self.space.values(x)
         warn_of_load({**self.space.held, **values}, case, "of the design ")
         room = {one.name: room for one, (room, _) in worst.items()}
-        reached = {one.name: self._known(one, LIMITS[one.name].value) for one in worst}
+        reached = {one.name: self._known(x, one, LIMITS[one.name].value) for one in worst}
         # of the least power, limits that are kept; else those with the least room
         edge = self.inside if self.raised == {POWER} else dict.fromkeys(room, min(room.values()))
         limiting = [name for name in room if room[name] <= edge[name] + CLOSE]
@@ -366,16 +366,16 @@ class Search:
             reached=reached,
             room=room,
             active=(*limiting, *ends),
-            power=None if asked.up_to is None else self._known(Place(POWER, asked.up_to), LIMITS[POWER].value),
+            power=None if asked.up_to is None else self._known(x, Place(POWER, asked.up_to), LIMITS[POWER].value),
             why="; ".join(told),
             stopped=stopped,
             ranges=dict(self.space.ranges),
         )
 
-    def _known(self, place: Place, what: Callable[[Answer], float]) -> float:
-        """What there is at a place of the best, as accurate as a run is; NaN where that does not settle."""
+    def _known(self, x: Array, place: Place, what: Callable[[Answer], float], is_quick: bool = False) -> float:
+        """What there is at a place; NaN where a run does not settle."""
         try:
-            return what(self.answer_at(self.found, place, is_quick=False))
+            return what(self.answer_at(x, place, is_quick))
         except ValueError as refusal:
             self.refused = str(refusal)
             return np.nan

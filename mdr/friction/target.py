@@ -1,8 +1,8 @@
 """Target: limits on friction, critical velocity and power; how far inside them a contact is, and where the worst is.
 
 The room of a limit is a number, above zero inside: of friction the distance over friction of full slip, or over the
-limit where that is greater; of a velocity or a power v with limit b (v - b)/(v + b), so that an infinite one counts
-as 1.
+limit where that is greater; of a velocity or a power L/(1 + |L|), L the logarithm of it over its limit, so that an
+infinite one counts as 1.
 
 Friction is limited at all velocities up to one. On a resonance of a body friction stays reduced however fast the pull,
 and v_c is infinite; but a share of a per cent beside it all may be lost. So a design keeps off resonances, and where
@@ -201,7 +201,10 @@ def _v_c(answer: Answer) -> float:
 
 def _above(value: float, limit: float) -> float:
     """Room of a value >= 0 above a limit."""
-    return 1 - 2 * limit / (value + limit)
+    if value in (0, np.inf):
+        return 1.0 if value else -1.0
+    times = float(np.log(value / limit))
+    return times / (1 + abs(times))
 
 
 def _resonances(case: SlidingContact) -> list[float]:
