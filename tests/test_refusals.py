@@ -413,6 +413,7 @@ SAYINGS = {
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["d cof/d indenter"])': "indenter is no input of a case",
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["d cof/d v_0/v_c"])': "v_0/v_c is no input of a case",
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["d k_zc/d mu_0"])': "k_zc has no derivative here, but cof, v_c, sta",
+    'sweep(CASE, {"v_0": [1e-3]}, quantities=["d band/d mu_0"])': "band has no derivative here, but cof, v_c, sta",
     'sweep(CASE, {"v_0": [1e-3]}, quantities=["d v_c/d v_0"])': "v_c does not depend on v_0",
     'sweep(CASE, {"T": [0.1]}, quantities=["d cof/d mu_0"])': "d cof/d mu_0 needs a velocity",
     'sweep(CASE, {"v_0": [1e-3]}, shard="1/2")': "a shard needs a store",

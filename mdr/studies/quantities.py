@@ -222,8 +222,9 @@ def _known(one: Any, held: Mapping[str, Any], accuracy: float) -> Quantity:
 
 def _derivative(name: str, quantity: str, of: Slope) -> Derivative:
     """The derivative of this name. ValueError for a quantity that has none, and for what is no input."""
-    if quantity not in QUANTITIES:
-        raise ValueError(f"{short(name)}: {short(quantity)} has no derivative here, but {', '.join(QUANTITIES)} have")
+    known = [one for one in QUANTITIES if one in CATALOGUE]
+    if quantity not in known:
+        raise ValueError(f"{short(name)}: {short(quantity)} has no derivative here, but {', '.join(known)} have")
     above, below, moves = CATALOGUE[quantity], facts_at(of.path), quantity == "cof"
     if of.path == OF_RUN and not moves:
         raise ValueError(f"{name}: {quantity} does not depend on {OF_RUN}")
