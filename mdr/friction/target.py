@@ -25,6 +25,7 @@ from mdr.closed_forms.full_slip_body import full_slip_critical_velocity
 from mdr.closed_forms.shaken_pull import CLOSED_FORM
 from mdr.friction.cof_curve import friction_at
 from mdr.friction.free_parameters import case_of
+from mdr.friction.shaken import no_load_velocity
 from mdr.given.vary import value_at
 from mdr.march.periodic.steady import BUDGET, Resolution
 from mdr.march.result.refinement import default_springs, default_steps
@@ -234,8 +235,6 @@ def _friction(answer: Answer) -> float:
 
 
 def _no_load(answer: Answer) -> float:
-    from mdr.friction.shaken import no_load_velocity
-
     return no_load_velocity(answer.case)
 
 
