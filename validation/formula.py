@@ -10,7 +10,9 @@ import re
 from validation.typeset import GREEK
 
 _TOKEN = re.compile(r"\s*(\\text\{[^}]*\}|\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|.)\s*", re.DOTALL)
-_LETTERS = {**GREEK, "varphi": "φ", "varepsilon": "ε", "Delta": "Δ", "Psi": "Ψ", "Phi": "Φ", "infty": "∞", "partial": "∂"}
+_LETTERS = {
+    **GREEK, "varphi": "φ", "varepsilon": "ε", "Delta": "Δ", "Psi": "Ψ", "Phi": "Φ", "infty": "∞", "partial": "∂",
+}  # fmt: skip
 _OPERATORS = {
     "cdot": "·", "le": "≤", "ge": "≥", "ll": "≪", "gg": "≫", "to": "→", "sum": "∑", "int": "∫", "mp": "∓", "pm": "±",
     "langle": "⟨", "rangle": "⟩", "approx": "≈", "ldots": "…",
