@@ -65,7 +65,7 @@ def design(
     Notes
     -----
     The room of a limit is, of friction, its distance over friction of full slip, or over the limit where that is
-    greater; of a velocity or a power L/(1 + |L|), L the logarithm of it over its limit, or the negative of that. The
+    greater; of a velocity or a power `L/(1 + |L|)`, L the logarithm of it over its limit, or the negative of that. The
     design has the greatest least room that was found; nothing proves that there is none greater. Friction and power are
     looked at at `up_to`, and at 1/2, 1/4 and 1/8 of it. Where a body or a mass may swing, all limits are to hold at
     frequencies 5 % below and above too, and it keeps 5 % off each resonance.

@@ -216,11 +216,11 @@ def propagate(
     paths = of.asked(spread)
     require_apart(paths, list(spread))
     deviations = {path: _deviation(of, path, given) for path, given in zip(paths, spread.values(), strict=True)}
+    kept = still_held(kept, paths)
     # what a rig is set to holds while other inputs vary, in the slopes as in the samples
     slopes = sensitivity(
         of.case, v_0, paths, held={**kept, **{path: of.value(path) for path in paths if path in RIG}}, accuracy=accuracy
     )
-    kept = still_held(kept, paths)
     draws = np.random.default_rng(seed).standard_normal((n, len(paths)))
     drawn = np.array([*slopes.inputs.values()]) + draws * [*deviations.values()]
     pulls = drawn[:, paths.index(OF_RUN)] if OF_RUN in paths else np.full(n, np.nan if v_0 is None else v_0)
