@@ -16,7 +16,7 @@ from mdr.friction.target import Target
 from mdr.normal.normal_force import full_cof
 from mdr.normal.resolved import at_rest, resolved
 from mdr.plots.figures import Figure
-from mdr.tools.arrays import Array
+from mdr.tools.arrays import EXACT, Array
 from mdr.tools.checks import count, positive
 from mdr.tools.csv_table import Tabled, csv_text
 from mdr.tools.keywords import offering
@@ -35,7 +35,7 @@ class Front(Summarised, Tabled, ArrayRecord):
     power: Array  #: mean power [W] of the drives that vibrate it, at up_to
     designs: tuple[Design, ...]
     full_cof: float  #: friction [-] without vibration
-    why: str  #: that the drives take no power; "" where they do
+    why: str  #: that the drives take no power, or that nothing lowers friction; "" where there is nothing to say
     stopped: str  #: what ended the search before its end; "" where nothing did
 
     def _summary(self) -> Summary:
@@ -144,6 +144,10 @@ def front(
     stopped = searches[0].stopped(work, limit_s)
     designs = [search.design() for search in searches]
     power = np.array([one.power for one in designs])
-    idle = "" if np.any(power > 0) else "the drives take no power: an elastic contact gives back what moves it"
     cofs = np.array([one.reached["cof_at_most"] for one in designs])
-    return Front(up_to, cofs, power, tuple(designs), full, idle, stopped)
+    why = ""
+    if not cofs.min() < full * (1 - EXACT):
+        why = "no vibration in these ranges lowers friction at up_to: it is above the critical velocity of each"
+    elif not np.any(power > 0):
+        why = "the drives take no power: an elastic contact gives back what moves it"
+    return Front(up_to, cofs, power, tuple(designs), full, why, stopped)

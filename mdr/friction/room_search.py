@@ -252,7 +252,7 @@ class Search:
         above, least = self.above(x, places), np.where(self.is_raised(places), self.score(x), 0.0)
         found: dict[str, Place] = {}
         for value, bound, place in sorted(zip(above.tolist(), least.tolist(), places, strict=True)):
-            if value < bound - EXACT:
+            if value < bound - EXACT and place not in self.places:
                 found.setdefault(place.name, place)
         return list(found.values())
 

@@ -170,6 +170,13 @@ def test_a_front_falls_and_its_designs_are_runs():
     assert len(found.plot().axes) == 3
 
 
+def test_a_front_ends_where_nothing_lowers_friction():
+    """Above the critical velocity of all cases friction is full, which no search can mend."""
+    found = mdr.front(RUBBER, 1e3 * v_c(RUBBER), {"du_z": (1 * UM, 15 * UM)}, n=3)
+    assert found.cof == pytest.approx(3 * [RUBBER.mu_0])
+    assert "no vibration in these ranges lowers friction" in found.why
+
+
 def test_an_elastic_contact_takes_no_power():
     assert "gives back" in mdr.front(CONE, 1e-4, {"du_z": (1 * UM, 15 * UM)}, n=2).why
 
