@@ -45,7 +45,7 @@ from mdr.tools.summary import Row, Summarised, Summary
 
 STARTS = 3  #: peaks among the points looked at first from which the search goes on
 LOOKS, CLOSER = 2, 4.0  #: how often points fill smaller ranges around the best, and by how much smaller each time
-ROUNDS = 4  #: of places that are added
+ROUNDS = 4  #: in which the least power is asked for with a little more room, until accurate runs keep all limits
 STEP = 1e-3  #: of a range, over which slopes are taken: well above what runs scatter by, well below any curvature
 GAIN, IDLE = 1e-4, 8  #: of room in so many steps, below which a climb ends
 CLOSE = 0.01  #: room by which a limit is above the least one and limits too
